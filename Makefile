@@ -1,0 +1,260 @@
+# buffon: build, tests, packaging. Needs GNU make, a C11 compiler and POSIX tools; `make help` lists
+# the targets. CC, CFLAGS, CPPFLAGS and LDFLAGS reach every command.
+#
+# The library in another build: compile src/*.c with the headers of src/ and include/,
+#
+#     cc -std=c11 -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -Iinclude -c src/*.c
+#
+# and link with -lm -pthread. Only -ffp-contract=off bears on results, and src/guard.h sees to it
+# where it is missing; -ffast-math is refused there. -DBUFFON_NO_THREADS leaves out threads,
+# -DBUFFON_NO_VECTORS vector instructions; neither changes a bit of a result.
+
+version_h = $(shell sed -n 's/^\#define $(1) "*\([0-9.]*\)"*$$/\1/p' include/buffon/version.h)
+VERSION := $(call version_h,BUFFON_VERSION_STRING)
+ABI := $(call version_h,BUFFON_ABI)
+
+# ---- what a user may set ------------------------------------------------------------------------
+
+BUILD ?= build
+PREFIX ?= /usr/local
+INCLUDEDIR ?= $(PREFIX)/include
+LIBDIR ?= $(PREFIX)/lib
+DESTDIR ?=
+ifeq ($(origin CC),default)
+CC := $(if $(shell command -v cc),cc,gcc)
+endif
+AR ?= ar
+CFLAGS ?= -O3 -g
+CPPFLAGS ?=
+LDFLAGS ?=
+WARNINGS ?= -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes
+JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+# The test programs to run, a command to run each under, and how long to fuzz.
+TESTS ?= $(basename $(notdir $(wildcard tests/test_*.c tests/fuzz_*.c)))
+RUNNER ?=
+FUZZ_SECONDS ?= 60
+PKG_CONFIG ?= pkg-config
+
+export BUILD CC CXX CFLAGS CPPFLAGS LDFLAGS WARNINGS MAKE PKG_CONFIG JOBS
+
+# ---- what always holds --------------------------------------------------------------------------
+
+# After the user's, so that they win. Results depend on -ffp-contract=off, speed on the next two.
+flags = $(WARNINGS) -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math \
+        -fvisibility=hidden -pthread
+compile = $(CC) -Iinclude $(CPPFLAGS) $(CFLAGS) $(flags) -MMD -MP
+libraries = -lm -pthread
+
+sources := $(sort $(wildcard src/*.c))
+headers := $(sort $(wildcard include/buffon/*.h))
+objects := $(sources:src/%.c=$(BUILD)/obj/%.o)
+verified := $(sources:src/%.c=$(BUILD)/verify/%.o)
+static := $(BUILD)/libbuffon.a
+shared := $(BUILD)/libbuffon.so.$(VERSION)
+tests := $(TESTS:%=$(BUILD)/tests/%)
+checks := $(sort $(wildcard tests/check_*.sh))
+# A file of examples/ is a program, and so is a directory.
+example_files := $(sort $(wildcard examples/*.c))
+example_trees := $(sort $(patsubst examples/%/,%,$(dir $(wildcard examples/*/*.c))))
+examples := $(example_files:%.c=$(BUILD)/%) $(example_trees:%=$(BUILD)/examples/%)
+benches := $(sort $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c)))
+
+# As many jobs as there are cores unless -j says otherwise.
+ifeq ($(filter -j% --jobserver%,$(MAKEFLAGS)),)
+MAKEFLAGS += -j$(JOBS)
+endif
+
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.PHONY: all demo test unit check bits bench bench-peers battery docs install uninstall dist asan \
+        tsan ubsan memcheck coverage fuzz examples clean help force
+
+all: $(static) $(shared) ## the static and the shared library, in build/
+
+# ---- the library --------------------------------------------------------------------------------
+
+# Changes when the compiler, a flag or the list of sources does, and everything with it.
+$(BUILD)/flags: force
+	@mkdir -p $(@D)
+	@printf '%s\n' "$$CC" "$$CPPFLAGS" "$$CFLAGS" "$$LDFLAGS" '$(flags)' '$(sources)' > $@.new
+	@$(CC) --version >> $@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
+# One set of objects for both libraries: position-independent code costs next to nothing.
+$(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	@echo "  CC    $<"
+	@$(compile) -fPIC -c -o $@ $<
+
+# With the invariants of src/verify.h checked: what the tests link.
+$(BUILD)/verify/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	@echo "  CC    $< (verify)"
+	@$(compile) -DBUFFON_VERIFY -c -o $@ $<
+
+$(static): $(objects)
+$(BUILD)/verify/libbuffon.a: $(verified)
+$(static) $(BUILD)/verify/libbuffon.a:
+	@echo "  AR    $@"
+	@rm -f $@
+	@$(AR) rcs $@ $(filter %.o,$^)
+
+$(shared): $(objects)
+	@echo "  LINK  $@"
+	@$(CC) $(CFLAGS) -shared -Wl,-soname,libbuffon.so.$(ABI) $(LDFLAGS) -o $@ $(objects) \
+	  $(libraries)
+	@ln -sf $(@F) $(BUILD)/libbuffon.so.$(ABI)
+	@ln -sf $(@F) $(BUILD)/libbuffon.so
+
+# ---- programs -----------------------------------------------------------------------------------
+
+# $(call program,flags,sources and libraries): compiles and links one.
+define program
+@mkdir -p $(@D)
+@echo "  CC    $@"
+@$(compile) -MF $@.d -MT $@ $(1) $(LDFLAGS) -o $@ $(2) $(libraries)
+endef
+
+$(BUILD)/tests/%: tests/%.c $(BUILD)/verify/libbuffon.a
+	$(call program,-Isrc,$^)
+
+# These use what is installed, not the private parts, and measure it or print its bits.
+$(BUILD)/tests/bits: tests/bits.c $(static)
+	$(call program,,$^)
+$(BUILD)/tests/battery: tests/battery.c $(static)
+	$(call program,,$^)
+
+$(BUILD)/bench/%: tests/bench/%.c $(static)
+	$(call program,$(if $(gsl),-DBENCH_GSL $(gsl_cflags)),$^ $(gsl))
+
+$(BUILD)/examples/%: examples/%.c $(static)
+	$(call program,,$^)
+
+define example_tree
+$(BUILD)/examples/$(1): $(patsubst examples/%.c,$(BUILD)/examples/%.o,$(wildcard examples/$(1)/*.c))
+endef
+$(foreach tree,$(example_trees),$(eval $(call example_tree,$(tree))))
+$(BUILD)/examples/%.o: examples/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	@echo "  CC    $<"
+	@$(compile) -c -o $@ $<
+$(example_trees:%=$(BUILD)/examples/%): $(static)
+	@echo "  LINK  $@"
+	@$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(libraries)
+
+examples: $(examples) ## the programs of examples/, in build/examples/
+
+demo: $(BUILD)/examples/lecture ## the lecture: a table, and build/demo/lecture.html
+	@mkdir -p $(BUILD)/demo
+	@$(BUILD)/examples/lecture $(BUILD)/demo/lecture.html
+
+# ---- tests --------------------------------------------------------------------------------------
+
+run_tests = sh tests/run.sh -j $(JOBS) -o $(BUILD)/tests
+
+test: all examples $(tests) ## all tests and the cheap checks; the last line counts them
+	@$(run_tests) $(checks) $(tests)
+
+unit: $(tests) ## the test programs alone: make unit TESTS='test_rng test_stats'
+	@$(run_tests) -w '$(RUNNER)' $(tests)
+
+check: test ## the tests, and bits
+	@$(MAKE) --no-print-directory bits
+
+bits: ## the same bits from every compiler and level of optimisation here
+	@sh tests/bits.sh
+
+battery: $(BUILD)/tests/battery ## dieharder over interleaved streams: hours
+	@sh tests/battery.sh $(BUILD)/tests/battery
+
+asan: ## the test programs with the address sanitizer
+	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/asan \
+	  CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address -fno-sanitize-recover=all'
+
+ubsan: ## the test programs with the undefined behaviour sanitizer
+	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/ubsan \
+	  CFLAGS='-O1 -g -fsanitize=undefined -fno-sanitize-recover=all'
+
+# The sanitizer of older compilers does not find its way about the address space of newer kernels
+# while that is laid out at random.
+tsan: ## the test programs with the thread sanitizer
+	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/tsan \
+	  RUNNER="$$(setarch -R true 2>/dev/null && echo setarch -R)" \
+	  CFLAGS='-O1 -g -fsanitize=thread'
+
+memcheck: ## the test programs under valgrind
+	@$(MAKE) --no-print-directory unit \
+	  RUNNER='valgrind -q --leak-check=full --show-leak-kinds=all --error-exitcode=99'
+
+coverage: ## lines of the library that the tests reach
+	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/coverage \
+	  CFLAGS='-O0 -g --coverage -fprofile-update=atomic'
+	@gcov -n -o $(BUILD)/coverage/verify $(sources) | \
+	  awk -F"[':%]" '/^File/ { file = $$2 } /^Lines/ && file ~ /^src/ { print $$2 "%  " file }'
+
+# Each target is also one of the tests, which replay random bytes through it.
+fuzz: ## the fuzz targets under clang's libFuzzer, FUZZ_SECONDS each
+	@mkdir -p $(BUILD)/fuzz
+	@for file in tests/fuzz_*.c; do \
+	   name=$$(basename $$file .c); mkdir -p $(BUILD)/fuzz/corpus_$$name; \
+	   clang -g -O1 -fsanitize=fuzzer,address,undefined -DBUFFON_LIBFUZZER -DBUFFON_VERIFY \
+	     -Iinclude -Isrc $(CPPFLAGS) $(flags) $$file $(sources) \
+	     -o $(BUILD)/fuzz/$$name $(libraries) && \
+	   $(BUILD)/fuzz/$$name -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
+	     -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus_$$name || exit 1; \
+	 done
+
+# ---- benches ------------------------------------------------------------------------------------
+
+# Asked only where a bench is built.
+gsl = $(eval gsl := $(shell $(PKG_CONFIG) --libs gsl 2>/dev/null))$(gsl)
+gsl_cflags = $(shell $(PKG_CONFIG) --cflags gsl)
+
+bench: $(benches) ## ns per number, point and evaluation; against GSL where it is installed
+	@for program in $^; do $$program || exit 1; done
+
+bench-peers: ## the same, and an error where GSL is not installed
+	@test -n '$(gsl)' || { echo "GSL is not installed: pkg-config does not find gsl"; exit 1; }
+	@$(MAKE) --no-print-directory bench
+
+# ---- documentation and packaging ----------------------------------------------------------------
+
+docs: $(BUILD)/docs/reference.md ## the reference, from the comments of the headers
+$(BUILD)/docs/reference.md: docs/reference.awk $(headers)
+	@mkdir -p $(@D)
+	@echo "  DOCS  $@"
+	@awk -f docs/reference.awk include/buffon/buffon.h > $@
+
+below_prefix = $(patsubst $(PREFIX)/%,$${prefix}/%,$(1))
+
+install: all ## into DESTDIR PREFIX, LIBDIR and INCLUDEDIR (/usr/local)
+	@mkdir -p '$(DESTDIR)$(INCLUDEDIR)/buffon' '$(DESTDIR)$(LIBDIR)/pkgconfig'
+	@install -m 644 $(headers) '$(DESTDIR)$(INCLUDEDIR)/buffon'
+	@install -m 644 $(static) '$(DESTDIR)$(LIBDIR)'
+	@install -m 755 $(shared) '$(DESTDIR)$(LIBDIR)'
+	@ln -sf $(notdir $(shared)) '$(DESTDIR)$(LIBDIR)/libbuffon.so.$(ABI)'
+	@ln -sf $(notdir $(shared)) '$(DESTDIR)$(LIBDIR)/libbuffon.so'
+	@printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$(call below_prefix,$(LIBDIR))' \
+	  'includedir=$(call below_prefix,$(INCLUDEDIR))' '' 'Name: buffon' \
+	  'Description: Monte Carlo integration and sampling' 'Version: $(VERSION)' \
+	  'Libs: -L$${libdir} -lbuffon' 'Libs.private: -lm -pthread' 'Cflags: -I$${includedir}' \
+	  > '$(DESTDIR)$(LIBDIR)/pkgconfig/buffon.pc'
+
+uninstall: ## removes what install put there
+	@rm -f $(headers:include/%='$(DESTDIR)$(INCLUDEDIR)/%') '$(DESTDIR)$(LIBDIR)/libbuffon.a' \
+	  '$(DESTDIR)$(LIBDIR)/libbuffon.so.$(VERSION)' '$(DESTDIR)$(LIBDIR)/libbuffon.so.$(ABI)' \
+	  '$(DESTDIR)$(LIBDIR)/libbuffon.so' '$(DESTDIR)$(LIBDIR)/pkgconfig/buffon.pc'
+	@if [ -d '$(DESTDIR)$(INCLUDEDIR)/buffon' ]; then rmdir '$(DESTDIR)$(INCLUDEDIR)/buffon'; fi
+
+dist: ## the committed sources as build/buffon-VERSION.tar.gz
+	@mkdir -p $(BUILD)
+	@git archive --prefix=buffon-$(VERSION)/ -o $(BUILD)/buffon-$(VERSION).tar.gz HEAD
+	@echo $(BUILD)/buffon-$(VERSION).tar.gz
+
+clean: ## removes build/
+	@rm -rf $(BUILD)
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-12s %s\n", $$1, $$2 }' Makefile
+
+-include $(foreach dir,obj verify tests bench examples examples/*,$(wildcard $(BUILD)/$(dir)/*.d))

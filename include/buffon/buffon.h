@@ -1,0 +1,37 @@
+/* buffon: Monte Carlo integration and sampling. This header includes all the others.
+ *
+ *     layer 0  api  version  status
+ *     layer 1  rng  stats  estimate  interval  integrand  points  partial
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion
+ *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
+ *
+ * Includes point down, or to the left within a row.
+ */
+#ifndef BUFFON_BUFFON_H
+#define BUFFON_BUFFON_H
+
+#include "api.h"
+#include "box.h"
+#include "cap.h"
+#include "density.h"
+#include "disk.h"
+#include "estimate.h"
+#include "hemisphere.h"
+#include "importance.h"
+#include "integrand.h"
+#include "interval.h"
+#include "inverse_cdf.h"
+#include "inversion.h"
+#include "partial.h"
+#include "points.h"
+#include "rejection.h"
+#include "rng.h"
+#include "run.h"
+#include "sphere.h"
+#include "stats.h"
+#include "status.h"
+#include "stratified.h"
+#include "uniform.h"
+#include "version.h"
+
+#endif

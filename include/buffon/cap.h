@@ -1,0 +1,97 @@
+/* Layer 2. Uniform points of a cap: the part of the unit sphere within an angle of an axis. What a
+ * light source that is a sphere, the sun or a cone of directions looks like from a point.
+ *
+ * All constructors make the same density from its height h = 1 - cos(half angle), which keeps its
+ * digits when the cap is small; the cosine would not. They differ in what is given.
+ *
+ * An axis may have any length; directions must be unit vectors.
+ */
+#ifndef BUFFON_CAP_H
+#define BUFFON_CAP_H
+
+#include "api.h"
+#include "density.h"
+#include "status.h"
+
+BUFFON_BEGIN
+
+/** The uniform density on the top of the unit sphere: the part above the plane z = cut.
+ *
+ *  In:      cut  -1 <= cut < 1; 0 is the hemisphere, -1 the whole sphere
+ *  Law:     z = 1 - h u1 with h = 1 - cut, angle = 2 pi u2 about z. g = 1 / (2 pi h) by solid angle
+ *           for unit vectors of the cap, 0 for others and where |x|^2 is further than 2^-20 from 1.
+ *           The edge counts as inside, with 2^-50 to spare for rounding
+ *  Draws:   2
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE
+ *  Exact:   about +z: x and y within 4 ulp, z within 1 ulp of 1, at any height; about another axis
+ *           each coordinate within 2^-50. g within 2 ulp (tests/test_sampler_accuracy.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap(double cut);
+
+/** The cap above the plane at `cut` along an axis: directions d with d . axis > cut |axis|.
+ *
+ *  In:      cut      -1 <= cut < 1
+ *           axis[3]  finite, not zero
+ *  Law, Draws, Exact: as buffon_cap, turned from +z to the axis
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE or BUFFON_E_NULL
+ *  Source:  T. Duff et al. (2017), Building an orthonormal basis, revisited
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_about(double cut, const double axis[3]);
+
+/** The cap within an angle of an axis: h = 2 sin^2(half_angle / 2).
+ *
+ *  In:      half_angle  in radians, 0 < half_angle <= pi
+ *           axis[3]     finite, not zero
+ *  Law, Draws, Exact, Returns: as buffon_cap_about. An angle below 1e-153, whose g would exceed the
+ *           doubles, is refused too
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_angle(double half_angle, const double axis[3]);
+
+/** The cap of a given height about an axis.
+ *
+ *  In:      one_minus_cos  h = 1 - cos(half angle), 0 < h <= 2
+ *           axis[3]        finite, not zero
+ *  Law, Draws, Exact, Returns: as buffon_cap_about. A height below 1e-308, whose g would exceed the
+ *           doubles, is refused too
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_height(double one_minus_cos, const double axis[3]);
+
+/** The directions in which a sphere is seen from a point outside it.
+ *
+ *  In:      from[3]    the eye, or the point to be lit
+ *           centre[3]  of the sphere
+ *           radius     of the sphere, finite, > 0
+ *  Law:     a cap about centre - from with sin(half angle) = radius / distance
+ *  Draws:   2
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also when `from`
+ *           lies in or on the sphere, or so far off that g would exceed the doubles
+ *  Exact:   h within 8 ulp where the distance is 1.1 radii or more; nearer, as far as distance minus
+ *           radius is known (tests/test_sampler_accuracy.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_of_sphere(const double from[3], const double centre[3],
+                                               double radius);
+
+/** One point of the cap above z = cut: the same as from buffon_cap.
+ *
+ *  Out:     x[3]    NaN unless -1 <= cut < 1
+ *  In:      u1, u2  in (0, 1): depth below the top, angle
+ *  Since:   0.1
+ */
+BUFFON_API void buffon_cap_sample(double x[3], double u1, double u2, double cut);
+
+/** The uniforms from which buffon_cap_sample makes a point.
+ *
+ *  Out:     u[2]  in (0, 1); NaN unless -1 <= cut < 1
+ *  In:      x[3]  a unit vector of the cap
+ *  Since:   0.1
+ */
+BUFFON_API void buffon_cap_invert(double u[2], const double x[3], double cut);
+
+BUFFON_END
+
+#endif

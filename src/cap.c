@@ -1,0 +1,177 @@
+#include "guard.h"
+
+#include <float.h>
+#include <math.h>
+
+#include <buffon/cap.h>
+
+#include "circle.h"
+#include "density_priv.h"
+#include "frame.h"
+
+/* The numbers of a cap in `param`: the frame, its height h, what is left of the diameter 2 - h, and
+ * the largest squared chord from the axis that counts as inside. */
+enum { CAP_HEIGHT = FRAME_SIZE, CAP_REST, CAP_REACH };
+
+/* With w = 1 - z = h u: 1 - z^2 = w (2 - w) and 2 - w = (2 - h) + h (1 - u), products and sums of
+ * positives, right to the last digits from the smallest cap to the whole sphere. */
+static void cap_map(double *restrict x, double *restrict y, double *restrict z,
+                    const double *restrict u1, const double *restrict u2, size_t n,
+                    const double *restrict param)
+{
+    const double h = param[CAP_HEIGHT], rest = param[CAP_REST], root = sqrt(h);
+    buffon_priv_circle(x, y, u2, n);
+    for (size_t i = 0; i < n; i++) {
+        const double s = root * sqrt(u1[i] * (rest + h * (1 - u1[i])));
+        x[i] *= s;
+        y[i] *= s;
+        z[i] = 1 - h * u1[i];
+    }
+    if (!frame_is_upright(param))
+        frame_turn(x, y, z, n, param);
+}
+
+static double cap_density(const buffon_density *g)
+{
+    return 0.5 * DENSITY_INV_PI / g->param[CAP_HEIGHT];
+}
+
+static int cap_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
+{
+    for (size_t i = 0; i < n; i += CIRCLE_TILE)
+        cap_map(x + i, x + n + i, x + 2 * n + i, u + i, u + n + i,
+                n - i < CIRCLE_TILE ? n - i : CIRCLE_TILE, g->param);
+    if (pdf)
+        density_fill(pdf, cap_density(g), n);
+    return 0;
+}
+
+static int cap_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
+{
+    const double *axis = g->param + 6, reach = g->param[CAP_REACH], value = cap_density(g);
+    const double ax = axis[0], ay = axis[1], az = axis[2];
+    for (size_t i = 0; i < n; i++) {
+        const double a = x[i], b = x[n + i], c = x[2 * n + i];
+        const double chord = (a - ax) * (a - ax) + (b - ay) * (b - ay) + (c - az) * (c - az);
+        const int in = (chord <= reach) & frame_is_unit(a, b, c);
+        pdf[i] = in ? value : 0;
+    }
+    return 0;
+}
+
+/* w is half the squared chord d - n, and 2 - w half that of d + n: the shorter keeps its digits. */
+static void cap_unmap(double u[2], double x, double y, double z, const double *param)
+{
+    const double nx = param[6], ny = param[7], nz = param[8], h = param[CAP_HEIGHT];
+    const double near = (x - nx) * (x - nx) + (y - ny) * (y - ny) + (z - nz) * (z - nz);
+    const double far = (x + nx) * (x + nx) + (y + ny) * (y + ny) + (z + nz) * (z + nz);
+    double across[2];
+    frame_across(across, param, x, y, z);
+    u[0] = density_open(near <= far ? 0.5 * near / h : 1 - (0.5 * far - param[CAP_REST]) / h);
+    u[1] = buffon_priv_circle_invert(across[0], across[1]);
+}
+
+static int cap_invert(double *u, const double *x, size_t n, const buffon_density *g)
+{
+    for (size_t i = 0; i < n; i++) {
+        double v[2];
+        cap_unmap(v, x[i], x[n + i], x[2 * n + i], g->param);
+        u[i] = v[0];
+        u[n + i] = v[1];
+    }
+    return 0;
+}
+
+static const buffon_density_ops cap_ops = {
+    .sample = cap_draw, .pdf = cap_pdf, .invert = cap_invert, .name = "buffon.cap"};
+
+/* About +z the points of even the smallest cap have all their digits; about another axis the doubles
+ * near it are 2^-53 apart, and membership must allow for that. */
+static buffon_density cap_make(double h, double rest, const double axis[3])
+{
+    buffon_density g = {.uniforms = 2, .dim = 3, .ops = &cap_ops};
+    double n[3];
+    if (!axis)
+        g.status = BUFFON_E_NULL;
+    else if (!(h >= DBL_MIN && h <= 2) || frame_unit(n, axis) == 0)
+        g.status = BUFFON_E_SHAPE;
+    if (g.status != BUFFON_OK)
+        return g;
+    frame_make(g.param, n);
+    const double slack = frame_is_upright(g.param) ? 0 : 0x1p-50;
+    const double chord = sqrt(2 * h) * (1 + 0x1p-50) + slack;
+    g.param[CAP_HEIGHT] = h;
+    g.param[CAP_REST] = rest;
+    g.param[CAP_REACH] = chord * chord;
+    return g;
+}
+
+buffon_density buffon_cap_about(double cut, const double axis[3])
+{
+    return cap_make(1 - cut, 1 + cut, axis);
+}
+
+buffon_density buffon_cap(double cut)
+{
+    const double up[3] = {0, 0, 1};
+    return buffon_cap_about(cut, up);
+}
+
+buffon_density buffon_cap_height(double one_minus_cos, const double axis[3])
+{
+    return cap_make(one_minus_cos, 2 - one_minus_cos, axis);
+}
+
+buffon_density buffon_cap_angle(double half_angle, const double axis[3])
+{
+    const double pi = 0x1.921fb54442d18p+1;
+    double s, c;
+    buffon_priv_sincospi(&s, &c, half_angle / (2 * pi));
+    if (!(half_angle > 0 && half_angle <= pi))
+        s = (double)NAN;
+    return cap_make(2 * s * s, 2 * c * c, axis);
+}
+
+/* With s = radius / distance the sine of the half angle, h = 1 - cos = s^2 / (1 + cos) and
+ * cos^2 = (1 - s)(1 + s) = ((d - r) / d) ((d + r) / d): nothing cancels but d - r. Coordinates that
+ * might overflow are first scaled, exactly. */
+buffon_density buffon_cap_of_sphere(const double from[3], const double centre[3], double radius)
+{
+    double axis[3], unit[3], h = (double)NAN, rest = h;
+    int finite = 1, large = radius > 0x1p+1000;
+    if (!from || !centre)
+        return cap_make(h, rest, NULL);
+    for (size_t j = 0; j < 3; j++) {
+        finite &= buffon_priv_isfinite(from[j]) && buffon_priv_isfinite(centre[j]);
+        large |= buffon_priv_abs(from[j]) > 0x1p+1000 || buffon_priv_abs(centre[j]) > 0x1p+1000;
+    }
+    const double scale = large ? 0x1p-4 : 1, r = scale * radius;
+    for (size_t j = 0; j < 3; j++)
+        axis[j] = scale * centre[j] - scale * from[j];
+    const double d = frame_unit(unit, axis);
+    if (finite && r > 0 && d > r) {
+        const double s = r / d, cosine = sqrt((d - r) / d * ((d + r) / d));
+        h = s * s / (1 + cosine);
+        rest = 1 + cosine;
+    }
+    return cap_make(h, rest, axis);
+}
+
+/* Refused where buffon_cap refuses, by NaN. */
+void buffon_cap_sample(double x[3], double u1, double u2, double cut)
+{
+    const buffon_density g = buffon_cap(cut);
+    if (g.status == BUFFON_OK)
+        cap_map(x, x + 1, x + 2, &u1, &u2, 1, g.param);
+    else
+        density_fill(x, (double)NAN, 3);
+}
+
+void buffon_cap_invert(double u[2], const double x[3], double cut)
+{
+    const buffon_density g = buffon_cap(cut);
+    if (g.status == BUFFON_OK)
+        cap_unmap(u, x[0], x[1], x[2], g.param);
+    else
+        density_fill(u, (double)NAN, 2);
+}

@@ -1,0 +1,45 @@
+/* Private. What the densities share, and what the engine asks of any density. */
+#ifndef BUFFON_SRC_DENSITY_PRIV_H
+#define BUFFON_SRC_DENSITY_PRIV_H
+
+#include <buffon/density.h>
+
+#include "mix.h"
+
+/* 1 / pi, which is also 1 / (2 pi) and 1 / (4 pi) but for the exponent. */
+#define DENSITY_INV_PI 0x1.45f306dc9c883p-2
+
+/* Mixes all that a density depends on, as far as the library can see it. */
+uint64_t buffon_priv_density_identity(uint64_t mix, const buffon_density *g);
+
+/* What a function of a table of operations returned, as a status: the library's own say more than
+ * that they failed. */
+buffon_status buffon_priv_density_result(int result);
+
+/* Whether g can be had, parts of products included. A user's density without the operation `pdf` may
+ * still give it along with its samples. */
+int buffon_priv_density_has_pdf(const buffon_density *g);
+
+/* Mixes n numbers. */
+static inline uint64_t density_mix(uint64_t mix, const double *x, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        mix = buffon_priv_mix_double(mix, x[i]);
+    return mix;
+}
+
+static inline void density_fill(double *x, double value, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] = value;
+}
+
+/* A uniform that was found by inversion, moved off the ends that rounding may have led it to: to
+ * the outermost of those that the generator makes. */
+static inline double density_open(double u)
+{
+    const double least = 0x1p-53, most = 1 - 0x1p-53;
+    return u < least ? least : u > most ? most : u;
+}
+
+#endif

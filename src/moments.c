@@ -1,0 +1,222 @@
+#include "guard.h"
+
+#include "moments.h"
+
+#include "elementary.h"
+#include "exact.h"
+#include "stats_priv.h"
+
+/* A lane takes four rows of 16 values at a time. Lanes start afresh every MOMENTS_CHUNK values:
+ * fewer numbers in a row means less rounding. */
+enum {
+    MOMENTS_LANES = 16,
+    MOMENTS_ROWS = 4 * MOMENTS_LANES,
+    MOMENTS_CHUNK = 1024
+};
+
+/* Scales that keep squares and their sums inside the doubles: data beyond 2^500 come down by 2^600,
+ * data below 2^-400 go up by it. That is exact for all but values 2^500 times below the largest. */
+#define MOMENTS_LARGE 0x1p500
+#define MOMENTS_SMALL 0x1p-400
+#define MOMENTS_SCALE 600
+
+typedef struct moments_lanes {
+    double r[MOMENTS_LANES], q[MOMENTS_LANES];
+    double min[MOMENTS_LANES], max[MOMENTS_LANES];
+} moments_lanes;
+
+static inline double moments_lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double moments_greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* 16 lanes to one number. */
+static double moments_fold(const double *lane)
+{
+    double t[MOMENTS_LANES];
+    for (int i = 0; i < MOMENTS_LANES; i++)
+        t[i] = lane[i];
+    for (int width = MOMENTS_LANES / 2; width > 0; width /= 2) {
+        for (int i = 0; i < width; i++)
+            t[i] += t[i + width];
+    }
+    return t[0];
+}
+
+/* The values themselves, or their multiples by `scale` in the buffer. */
+static const double *moments_view(double *buffer, const double *y, size_t n, double scale)
+{
+    if (scale == 1.0)
+        return y;
+    for (size_t i = 0; i < n; i++)
+        buffer[i] = y[i] * scale;
+    return buffer;
+}
+
+/* One chunk about the number m: adds to r and q, widens min and max. */
+static void moments_chunk(moments_lanes *t, const double *y, size_t n, double m)
+{
+    double r[MOMENTS_LANES] = {0}, q[MOMENTS_LANES] = {0};
+    size_t i = 0;
+    for (; i + MOMENTS_ROWS <= n; i += MOMENTS_ROWS) {
+        const double *y0 = y + i, *y1 = y0 + MOMENTS_LANES;
+        const double *y2 = y1 + MOMENTS_LANES, *y3 = y2 + MOMENTS_LANES;
+        for (size_t l = 0; l < MOMENTS_LANES; l++) {
+            double a = y0[l], b = y1[l], c = y2[l], d = y3[l];
+            double min = moments_lesser(moments_lesser(a, b), moments_lesser(c, d));
+            double max = moments_greater(moments_greater(a, b), moments_greater(c, d));
+            a -= m;
+            b -= m;
+            c -= m;
+            d -= m;
+            r[l] += (a + b) + (c + d);
+            q[l] += (a * a + b * b) + (c * c + d * d);
+            t->min[l] = moments_lesser(t->min[l], min);
+            t->max[l] = moments_greater(t->max[l], max);
+        }
+    }
+    for (; i < n; i++) {
+        size_t l = i % MOMENTS_LANES;
+        double d = y[i] - m;
+        r[l] += d;
+        q[l] += d * d;
+        t->min[l] = moments_lesser(t->min[l], y[i]);
+        t->max[l] = moments_greater(t->max[l], y[i]);
+    }
+    for (size_t l = 0; l < MOMENTS_LANES; l++) {
+        t->r[l] += r[l];
+        t->q[l] += q[l];
+    }
+}
+
+/* Everything but n and e, for the values times `scale` about the number m. */
+static void moments_about(buffon_priv_moments *out, const double *y, size_t n, double m,
+                          double scale)
+{
+    double buffer[MOMENTS_CHUNK];
+    moments_lanes t = {.r = {0}};
+    for (size_t l = 0; l < MOMENTS_LANES; l++)
+        t.min[l] = t.max[l] = y[0] * scale;
+    for (size_t i = 0; i < n; i += MOMENTS_CHUNK) {
+        size_t length = n - i < MOMENTS_CHUNK ? n - i : MOMENTS_CHUNK;
+        moments_chunk(&t, moments_view(buffer, y + i, length, scale), length, m);
+    }
+    out->m = m;
+    out->r = moments_fold(t.r);
+    out->q = moments_fold(t.q);
+    out->min = t.min[0];
+    out->max = t.max[0];
+    for (size_t l = 1; l < MOMENTS_LANES; l++) {
+        out->min = moments_lesser(out->min, t.min[l]);
+        out->max = moments_greater(out->max, t.max[l]);
+    }
+}
+
+/* The first value serves as m at first: where it is within two standard deviations of the mean, which
+ * is most of the time, one reading of the block is enough, and little of q cancels in the end. */
+static void moments_centre(buffon_priv_moments *out, const double *y, size_t n, double scale)
+{
+    moments_about(out, y, n, y[0] * scale, scale);
+    double shift = out->r / (double)n;
+    if (!(out->q / (double)n >= 1.25 * (shift * shift)))
+        moments_about(out, y, n, out->m + shift, scale);
+}
+
+size_t buffon_priv_moments_block(buffon_priv_moments *out, const double *y, size_t n)
+{
+    *out = (buffon_priv_moments){.n = n};
+    if (n == 0)
+        return 0;
+    moments_centre(out, y, n, 1.0);
+    if (!buffon_priv_isfinite(out->r)) { /* a value is not finite, or all are and r overflowed */
+        for (size_t i = 0; i < n; i++) {
+            if (!buffon_priv_isfinite(y[i]))
+                return i;
+        }
+    }
+    double min = out->min + 0.0, max = out->max + 0.0; /* -0 becomes 0 */
+    double largest = moments_greater(-min, max);
+    if (min == max) {
+        out->m = min;
+        out->r = out->q = 0.0;
+    } else if (largest > MOMENTS_LARGE) {
+        out->e = MOMENTS_SCALE;
+        moments_centre(out, y, n, 0x1p-600);
+    } else if (largest < MOMENTS_SMALL) {
+        out->e = -MOMENTS_SCALE;
+        moments_centre(out, y, n, 0x1p600);
+    }
+    out->min = min;
+    out->max = max;
+    return n;
+}
+
+static double moments_factor(const buffon_priv_moments *m)
+{
+    return m->e == 0 ? 1.0 : m->e > 0 ? 0x1p-600 : 0x1p600;
+}
+
+/* total += sum (a - ma)(b - mb) of one chunk. */
+static void moments_cross_chunk(double *total, const double *a, const double *b, size_t n, double ma,
+                                double mb)
+{
+    double q[MOMENTS_LANES] = {0};
+    size_t i = 0;
+    for (; i + MOMENTS_ROWS <= n; i += MOMENTS_ROWS) {
+        for (size_t l = i; l < i + MOMENTS_LANES; l++) {
+            double p0 = (a[l] - ma) * (b[l] - mb);
+            double p1 = (a[l + MOMENTS_LANES] - ma) * (b[l + MOMENTS_LANES] - mb);
+            double p2 = (a[l + 2 * MOMENTS_LANES] - ma) * (b[l + 2 * MOMENTS_LANES] - mb);
+            double p3 = (a[l + 3 * MOMENTS_LANES] - ma) * (b[l + 3 * MOMENTS_LANES] - mb);
+            q[l - i] += (p0 + p1) + (p2 + p3);
+        }
+    }
+    for (; i < n; i++)
+        q[i % MOMENTS_LANES] += (a[i] - ma) * (b[i] - mb);
+    for (size_t l = 0; l < MOMENTS_LANES; l++)
+        total[l] += q[l];
+}
+
+double buffon_priv_cross_block(const double *a, const double *b, size_t n,
+                               const buffon_priv_moments *ma, const buffon_priv_moments *mb)
+{
+    double a_buffer[MOMENTS_CHUNK], b_buffer[MOMENTS_CHUNK], total[MOMENTS_LANES] = {0};
+    for (size_t i = 0; i < n; i += MOMENTS_CHUNK) {
+        size_t length = n - i < MOMENTS_CHUNK ? n - i : MOMENTS_CHUNK;
+        const double *a_view = moments_view(a_buffer, a + i, length, moments_factor(ma));
+        const double *b_view = moments_view(b_buffer, b + i, length, moments_factor(mb));
+        moments_cross_chunk(total, a_view, b_view, length, ma->m, mb->m);
+    }
+    return moments_fold(total);
+}
+
+void buffon_priv_stats_add_block(buffon_stats *s, const buffon_priv_moments *m, const double *y)
+{
+    if (m->n == 0)
+        return;
+    buffon_priv_sum_add(s->sum, m->m, m->n, m->e);
+    buffon_priv_sum_add(s->sum, m->r, 1, m->e);
+    buffon_priv_squares_add(s->squares, m->m, m->m, m->n, 2 * m->e);
+    buffon_priv_squares_add(s->squares, m->m, m->r, 2, 2 * m->e);
+    buffon_priv_squares_add(s->squares, m->q, 1.0, 1, 2 * m->e);
+    s->min = s->count == 0 ? m->min : moments_lesser(s->min, m->min);
+    s->max = s->count == 0 ? m->max : moments_greater(s->max, m->max);
+    s->count += m->n;
+    if (moments_greater(-m->min, m->max) > s->top[BUFFON_STATS_TOP - 1])
+        buffon_priv_top_add(s->top, y, m->n);
+}
+
+void buffon_priv_cross_add(uint64_t *squares, const buffon_priv_moments *ma,
+                           const buffon_priv_moments *mb, double q_ab)
+{
+    int e = ma->e + mb->e;
+    buffon_priv_squares_add(squares, ma->m, mb->m, ma->n, e);
+    buffon_priv_squares_add(squares, ma->m, mb->r, 1, e);
+    buffon_priv_squares_add(squares, mb->m, ma->r, 1, e);
+    buffon_priv_squares_add(squares, q_ab, 1.0, 1, e);
+}

@@ -1,0 +1,76 @@
+/* Quantiles of Student's t, and of the binomial as Clopper and Pearson invert it. */
+#include "quantile.h"
+#include "elementary.h"
+
+#include <buffon/interval.h>
+#include <math.h>
+
+#define QUANTILE_NAN buffon_priv_from_bits(UINT64_C(0x7ff8000000000000))
+#define QUANTILE_INF buffon_priv_from_bits(UINT64_C(0x7ff0000000000000))
+
+/* t from the normal quantile z of the same tails: the first terms of the Cornish-Fisher series in
+ * 1 / dof, M. Abramowitz, I. Stegun (1964), 26.7.5. The first term left out is about
+ * z (1/20 + z^10 / 14000) / dof^5. */
+static double quantile_student_series(double z, double dof)
+{
+    const double w = z * z, r = 1 / dof;
+    const double g1 = (1 + w) / 4;
+    const double g2 = (3 + w * (16 + w * 5)) / 96;
+    const double g3 = (-15 + w * (17 + w * (19 + w * 3))) / 384;
+    const double g4 = (-945 + w * (-1920 + w * (1482 + w * (776 + w * 79)))) / 92160;
+    return z + z * r * (g1 + r * (g2 + r * (g3 + r * g4)));
+}
+
+/* z with P(|Z| <= z) = inside, P(|Z| > z) = outside. */
+static double quantile_normal(double inside, double outside)
+{
+    return inside < 0.5 ? buffon_priv_normal_central(0.5 * inside)
+                        : buffon_priv_normal_two_sided(outside);
+}
+
+/* T^2 / (dof + T^2) is beta with parameters 1/2 and dof / 2, so T^2 is its odds against those of the
+ * mean, and log T^2 what buffon_priv_beta_point returns. */
+double buffon_priv_student_central(double inside, double outside, double dof)
+{
+    const double z = quantile_normal(inside, outside);
+    double guess = QUANTILE_NAN, x;
+    if (z == 0 || outside == 0) {
+        return outside == 0 ? QUANTILE_INF : 0;
+    }
+    if (dof >= 1000 && z * z <= 0.01 * dof) {
+        return quantile_student_series(z, dof);
+    }
+    if (z * z < 2 * dof) {
+        guess = 2 * buffon_priv_log(quantile_student_series(z, dof));
+    }
+    return buffon_priv_exp(0.5 * buffon_priv_beta_point(&x, inside, outside, 0.5, 0.5 * dof, guess));
+}
+
+double buffon_priv_student_two_sided(double alpha, double dof)
+{
+    return buffon_priv_student_central(1 - alpha, alpha, dof);
+}
+
+double buffon_student_upper(double q, double dof)
+{
+    const double tail = q > 0.5 ? 1 - q : q;
+    double t;
+    if (!(q >= 0 && q <= 1 && dof > 0)) {
+        return QUANTILE_NAN;
+    }
+    t = buffon_priv_student_central(1 - 2 * tail, 2 * tail, dof);
+    return q > 0.5 ? -t : t;
+}
+
+void buffon_priv_clopper_pearson(double *lo, double *hi, uint64_t hits, uint64_t n, double alpha)
+{
+    const double miss = 0.5 * alpha, k = (double)hits, rest = (double)(n - hits);
+    *lo = 0;
+    *hi = 1;
+    if (hits > 0) {
+        buffon_priv_beta_point(lo, miss, 1 - miss, k, rest + 1, QUANTILE_NAN);
+    }
+    if (hits < n) {
+        buffon_priv_beta_point(hi, 1 - miss, miss, k + 1, rest, QUANTILE_NAN);
+    }
+}

@@ -1,0 +1,283 @@
+#include "guard.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "density_priv.h"
+#include "exact.h"
+#include "worker.h"
+
+/* The most uniforms, coordinates and components of any stratum. */
+typedef struct worker_sizes {
+    size_t uniforms, dim, components;
+} worker_sizes;
+
+static worker_sizes worker_measure(const buffon_priv_problem *problem)
+{
+    worker_sizes most = {0, 0, 0};
+    for (size_t s = 0; s < problem->strata; s++) {
+        const buffon_priv_stratum *stratum = &problem->stratum[s];
+        const size_t uniforms = stratum->g->uniforms + problem->extra;
+        most.uniforms = uniforms > most.uniforms ? uniforms : most.uniforms;
+        most.dim = stratum->g->dim > most.dim ? stratum->g->dim : most.dim;
+        most.components = stratum->f->components > 0 ? stratum->f->components : 1;
+    }
+    return most;
+}
+
+buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_priv_setting *setting,
+                                      size_t n)
+{
+    const buffon_priv_problem *problem = setting->problem;
+    const buffon_priv_shape *shape = setting->shape;
+    const worker_sizes most = worker_measure(problem);
+    const size_t outputs = (size_t)shape->outputs, series = buffon_priv_shape_series(shape);
+    /* Sums cannot wrap: uniforms and dim are below 2^32, the rest below 2^20. */
+    const size_t rows[] = {most.uniforms, most.dim,      1, most.components, problem->p != NULL,
+                           outputs,       series - outputs};
+    double **const arrays[] = {&worker->u, &worker->x, &worker->pdf, &worker->f,
+                               &worker->p, &worker->y, &worker->pair};
+    size_t all = 0;
+    memset(worker, 0, sizeof *worker);
+    worker->setting = setting;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (rows[i] > SIZE_MAX / 16 / sizeof(double) / n - all / n - 1)
+            return BUFFON_E_NOMEM;
+        all += rows[i] * n;
+    }
+    worker->memory = malloc((all + most.dim) * sizeof(double));
+    worker->moments = calloc(series, sizeof *worker->moments);
+    if (worker->memory == NULL || worker->moments == NULL ||
+        buffon_priv_cells_make(&worker->whole, shape) != 0 ||
+        buffon_priv_cells_make(&worker->tail, shape) != 0) {
+        buffon_priv_worker_free(worker);
+        return BUFFON_E_NOMEM;
+    }
+    worker->row = worker->memory + all;
+    all = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        *arrays[i] = worker->memory + all;
+        all += rows[i] * n;
+    }
+    return BUFFON_OK;
+}
+
+void buffon_priv_worker_free(buffon_priv_worker *worker)
+{
+    free(worker->memory);
+    free(worker->moments);
+    buffon_priv_cells_free(&worker->whole);
+    buffon_priv_cells_free(&worker->tail);
+    worker->memory = NULL;
+    worker->moments = NULL;
+}
+
+buffon_rng_key buffon_priv_cell_key(const buffon_priv_setting *setting, size_t cell)
+{
+    const size_t replicates = (size_t)setting->shape->replicates;
+    return (buffon_rng_key){.seed = setting->run->seed,
+                            .stream = setting->run->stream,
+                            .purpose = setting->problem->purpose,
+                            .replicate = (uint8_t)(cell % replicates),
+                            .stratum = (uint16_t)(cell / replicates)};
+}
+
+/* f[components * n] at x[dim * n]. */
+static buffon_status worker_integrand(buffon_priv_worker *worker, double *f,
+                                      const buffon_integrand *integrand, size_t n)
+{
+    const double *x = worker->x;
+    if (integrand->batch != NULL)
+        return integrand->batch(f, x, n, integrand->ctx) == 0 ? BUFFON_OK : BUFFON_E_STOPPED;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < integrand->dim; j++)
+            worker->row[j] = x[j * n + i];
+        f[i] = integrand->scalar(worker->row, integrand->ctx);
+    }
+    return BUFFON_OK;
+}
+
+/* From a block of the point set to outputs y; *bad is the lowest point that failed. */
+static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_priv_task *task,
+                                     const double **y, size_t *bad)
+{
+    const buffon_priv_setting *setting = worker->setting;
+    const buffon_priv_problem *problem = setting->problem;
+    const size_t stratum = task->cell / (size_t)setting->shape->replicates;
+    const buffon_density *g = problem->stratum[stratum].g;
+    const buffon_points_block block = {.key = buffon_priv_cell_key(setting, task->cell),
+                                       .first = task->k * setting->shape->block,
+                                       .n = task->n,
+                                       .dim = g->uniforms + problem->extra,
+                                       .table = setting->table[task->cell]};
+    const buffon_priv_batch batch = {.n = task->n,
+                                     .x = worker->x,
+                                     .pdf = worker->pdf,
+                                     .extra = worker->u + g->uniforms * task->n,
+                                     .f = worker->f,
+                                     .p = worker->p,
+                                     .g = g};
+    buffon_status status;
+    *bad = 0;
+    *y = worker->f;
+    if (setting->points->fill(worker->u, &block, setting->points) != 0)
+        return BUFFON_E_POINTS;
+    status = buffon_priv_density_result(
+        g->ops->sample(worker->x, problem->pdf ? worker->pdf : NULL, worker->u, task->n, g));
+    if (status != BUFFON_OK)
+        return status;
+    status = worker_integrand(worker, worker->f, problem->stratum[stratum].f, task->n);
+    if (status == BUFFON_OK && problem->p != NULL)
+        status = worker_integrand(worker, worker->p, problem->p, task->n);
+    if (status != BUFFON_OK || problem->weigh == NULL)
+        return status;
+    *y = worker->y;
+    return problem->weigh(worker->y, bad, &batch, problem);
+}
+
+/* Sees to values that are not finite, up to the point `end` where something else failed: the lowest
+ * point that has one, or end if by option they count as zero. */
+static size_t worker_nonfinite(buffon_priv_worker *worker, double *y, size_t n, size_t end,
+                               uint64_t *replaced)
+{
+    const buffon_priv_setting *setting = worker->setting;
+    size_t lowest = end;
+    for (size_t k = 0; k < setting->shape->outputs; k++) {
+        for (size_t i = 0; i < end; i++) {
+            double *value = &y[k * n + i];
+            if (*value - *value == 0)
+                continue;
+            if (setting->run->on_nonfinite == BUFFON_NONFINITE_ERROR) {
+                lowest = i < lowest ? i : lowest;
+                break;
+            }
+            *value = 0;
+            replaced[k]++;
+        }
+    }
+    return lowest;
+}
+
+/* Means and half differences of the pairs of each output, behind one another. */
+static void worker_pairs(buffon_priv_worker *worker, const double *y, size_t n)
+{
+    const buffon_priv_shape *shape = worker->setting->shape;
+    const size_t outputs = (size_t)shape->outputs, half = n / 2;
+    const int differences = buffon_priv_shape_variants(shape) > 2;
+    for (size_t k = 0; k < outputs; k++) {
+        const double *row = y + k * n;
+        double *mean = worker->pair + k * half, *difference = worker->pair + (outputs + k) * half;
+        for (size_t i = 0; i < half; i++) {
+            mean[i] = 0.5 * row[2 * i] + 0.5 * row[2 * i + 1];
+            if (differences)
+                difference[i] = 0.5 * row[2 * i] - 0.5 * row[2 * i + 1];
+        }
+    }
+}
+
+/* The values of a series of the block, and their number. */
+static const double *worker_series(const buffon_priv_worker *worker, const double *y, size_t n,
+                                   size_t s, size_t *count)
+{
+    const size_t outputs = (size_t)worker->setting->shape->outputs;
+    *count = s < outputs ? n : n / 2;
+    return s < outputs ? y + s * n : worker->pair + (s - outputs) * (n / 2);
+}
+
+static void worker_add_cross(buffon_priv_worker *worker, const buffon_priv_cells *cells, size_t cell,
+                             const double *y, size_t n)
+{
+    const buffon_priv_shape *shape = worker->setting->shape;
+    const size_t outputs = (size_t)shape->outputs;
+    uint64_t *cross = cells->cross + cell * buffon_priv_shape_cross(shape);
+    for (size_t v = 0; v < buffon_priv_shape_variants(shape); v++) {
+        for (size_t b = 1; b < outputs; b++) {
+            for (size_t a = 0; a < b; a++) {
+                const buffon_priv_moments *ma = &worker->moments[v * outputs + a];
+                const buffon_priv_moments *mb = &worker->moments[v * outputs + b];
+                size_t count;
+                const double *ya = worker_series(worker, y, n, v * outputs + a, &count);
+                const double *yb = worker_series(worker, y, n, v * outputs + b, &count);
+                const double q = buffon_priv_cross_block(ya, yb, count, ma, mb);
+                buffon_priv_cross_add(cross + buffon_priv_shape_cross_at(shape, v, a, b), ma, mb, q);
+            }
+        }
+    }
+}
+
+/* Adds the block's values to its cell. `replaced` counts, for each output, values set to zero. */
+static void worker_add(buffon_priv_worker *worker, const buffon_priv_task *task, const double *y,
+                       const uint64_t *replaced)
+{
+    const buffon_priv_shape *shape = worker->setting->shape;
+    const size_t series = buffon_priv_shape_series(shape);
+    const buffon_priv_cells *cells = task->n == shape->block ? &worker->whole : &worker->tail;
+    buffon_stats *stats = cells->stats + task->cell * series;
+    for (size_t s = 0; s < series; s++) {
+        size_t count;
+        const double *values = worker_series(worker, y, task->n, s, &count);
+        if (s >= shape->outputs) /* the outputs' own are there already */
+            (void)buffon_priv_moments_block(&worker->moments[s], values, count);
+        buffon_priv_stats_add_block(&stats[s], &worker->moments[s], values);
+        if (replaced != NULL && s < shape->outputs)
+            stats[s].nonfinite += replaced[s];
+    }
+    if (shape->covariance)
+        worker_add_cross(worker, cells, task->cell, y, task->n);
+}
+
+static int worker_finite(buffon_priv_worker *worker, const double *y, size_t n)
+{
+    for (size_t k = 0; k < worker->setting->shape->outputs; k++) {
+        if (buffon_priv_moments_block(&worker->moments[k], y + k * n, n) != n)
+            return 0;
+    }
+    return 1;
+}
+
+/* The way of a block in which something is wrong: finds the lowest point that fails, or mends. */
+static buffon_status worker_doubtful(buffon_priv_worker *worker, const buffon_priv_task *task,
+                                     double *y, buffon_status status, size_t *bad)
+{
+    const size_t outputs = (size_t)worker->setting->shape->outputs;
+    const size_t end = status == BUFFON_OK ? task->n : *bad;
+    uint64_t *replaced = calloc(outputs, sizeof *replaced);
+    size_t lowest;
+    *bad = 0;
+    if (replaced == NULL)
+        return BUFFON_E_NOMEM;
+    lowest = worker_nonfinite(worker, y, task->n, end, replaced);
+    if (lowest == task->n) {
+        (void)worker_finite(worker, y, task->n);
+        if (buffon_priv_shape_variants(worker->setting->shape) > 1)
+            worker_pairs(worker, y, task->n);
+        worker_add(worker, task, y, replaced);
+    }
+    free(replaced);
+    *bad = lowest;
+    if (lowest < end)
+        return BUFFON_E_NONFINITE;
+    return status;
+}
+
+buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_priv_task *task)
+{
+    const buffon_priv_shape *shape = worker->setting->shape;
+    const double *y = NULL;
+    size_t bad = 0;
+    buffon_status status = worker_evaluate(worker, task, &y, &bad);
+    if (status == BUFFON_OK && worker_finite(worker, y, task->n)) {
+        if (buffon_priv_shape_variants(shape) > 1)
+            worker_pairs(worker, y, task->n);
+        worker_add(worker, task, y, NULL);
+        return BUFFON_OK;
+    }
+    if (status == BUFFON_OK || bad > 0)
+        status = worker_doubtful(worker, task, y == worker->f ? worker->f : worker->y, status, &bad);
+    if (status != BUFFON_OK) {
+        worker->bad_index = (task->k * shape->block + bad) * shape->replicates +
+                            task->cell % shape->replicates;
+        worker->bad_stratum = task->cell / shape->replicates;
+    }
+    return status;
+}
