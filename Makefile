@@ -67,7 +67,7 @@ endif
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all demo test unit check bits bench bench-peers battery docs install uninstall dist asan \
-        tsan ubsan memcheck coverage fuzz examples clean help force
+        tsan ubsan memcheck coverage fuzz programs examples clean help force
 
 all: $(static) $(shared) ## the static and the shared library, in build/
 
@@ -131,16 +131,20 @@ $(BUILD)/examples/%: examples/%.c $(static)
 	$(call program,,$^)
 
 define example_tree
-$(BUILD)/examples/$(1): $(patsubst examples/%.c,$(BUILD)/examples/%.o,$(wildcard examples/$(1)/*.c))
+$(BUILD)/examples/$(1): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard examples/$(1)/*.c))
 endef
 $(foreach tree,$(example_trees),$(eval $(call example_tree,$(tree))))
-$(BUILD)/examples/%.o: examples/%.c $(BUILD)/flags
+$(BUILD)/obj/examples/%.o: examples/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	@echo "  CC    $<"
 	@$(compile) -c -o $@ $<
 $(example_trees:%=$(BUILD)/examples/%): $(static)
+	@mkdir -p $(@D)
 	@echo "  LINK  $@"
-	@$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(libraries)
+	@$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(static) $(libraries)
+
+# What takes no part in `make test` is compiled all the same.
+programs: $(tests) $(examples) $(benches) $(BUILD)/tests/bits $(BUILD)/tests/battery ## every program
 
 examples: $(examples) ## the programs of examples/, in build/examples/
 
@@ -192,16 +196,17 @@ coverage: ## lines of the library that the tests reach
 	@gcov -n -o $(BUILD)/coverage/verify $(sources) | \
 	  awk -F"[':%]" '/^File/ { file = $$2 } /^Lines/ && file ~ /^src/ { print $$2 "%  " file }'
 
-# Each target is also one of the tests, which replay random bytes through it.
-fuzz: ## the fuzz targets under clang's libFuzzer, FUZZ_SECONDS each
+# Each target is also one of the tests, where it makes its own bytes; the good ones are the seeds.
+fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets under libFuzzer, FUZZ_SECONDS each
 	@mkdir -p $(BUILD)/fuzz
 	@for file in tests/fuzz_*.c; do \
 	   name=$$(basename $$file .c); mkdir -p $(BUILD)/fuzz/corpus_$$name; \
+	   $(BUILD)/tests/$$name $(BUILD)/fuzz/corpus_$$name > $(BUILD)/fuzz/$$name.tap || exit 1; \
 	   clang -g -O1 -fsanitize=fuzzer,address,undefined -DBUFFON_LIBFUZZER -DBUFFON_VERIFY \
 	     -Iinclude -Isrc $(CPPFLAGS) $(flags) $$file $(sources) \
 	     -o $(BUILD)/fuzz/$$name $(libraries) && \
-	   $(BUILD)/fuzz/$$name -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
-	     -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus_$$name || exit 1; \
+	   $(BUILD)/fuzz/$$name -max_total_time=$(FUZZ_SECONDS) -max_len=65536 -verbosity=0 \
+	     -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus_$$name || exit 1; \
 	 done
 
 # ---- benches ------------------------------------------------------------------------------------
@@ -257,4 +262,5 @@ clean: ## removes build/
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-12s %s\n", $$1, $$2 }' Makefile
 
--include $(foreach dir,obj verify tests bench examples examples/*,$(wildcard $(BUILD)/$(dir)/*.d))
+-include $(foreach dir,obj obj/examples/* verify tests bench examples, \
+           $(wildcard $(BUILD)/$(dir)/*.d))

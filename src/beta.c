@@ -1,4 +1,5 @@
-/* Quantiles of the beta distribution, for parameters from 1e-2 to 1e19 and tails down to 1e-300.
+/* Quantiles of the beta distribution, good to 1e-12 for parameters from 0.01 up and any tails. Below
+ * that the quantile is ill-conditioned: an error of 1e-16 in p is one of 1e-16 / a in x.
  *
  * The variable is mu = log((x / y) / (x0 / y0)) with y = 1 - x and the mean x0 = a / (a + b), y0: the
  * log odds against those of the mean. In it nothing of the size of a or b cancels, x and y have the
@@ -18,6 +19,8 @@
 #include <buffon/interval.h>
 #include <math.h>
 
+#define BETA_LEAST 1e-300 /* beyond these sums and quotients of a and b leave the doubles */
+#define BETA_MOST 1e300
 #define BETA_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
 #define BETA_MANY 1000   /* of min(a, b): from there on the fraction is slow near the mean */
 #define BETA_STEPS 20000 /* of the fraction at most */
@@ -259,8 +262,8 @@ double buffon_priv_beta_point(double *x, double lower, double upper, double a, d
 double buffon_beta_quantile(double p, double a, double b)
 {
     double x;
-    if (!(p >= 0 && p <= 1 && a > 0 && b > 0 && buffon_priv_isfinite(a) &&
-          buffon_priv_isfinite(b))) {
+    if (!(p >= 0 && p <= 1 && a >= BETA_LEAST && b >= BETA_LEAST && a <= BETA_MOST &&
+          b <= BETA_MOST)) {
         return buffon_priv_from_bits(UINT64_C(0x7ff8000000000000));
     }
     if (p == 0 || p == 1) {

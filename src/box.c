@@ -152,7 +152,7 @@ static buffon_status box_check(const double *lo, const double *hi, size_t dim)
 {
     if (!lo || !hi)
         return BUFFON_E_NULL;
-    if (dim == 0)
+    if (dim == 0 || dim > UINT32_MAX)
         return BUFFON_E_DIM;
     for (size_t j = 0; j < dim; j++)
         if (!buffon_priv_isfinite(lo[j]) || !buffon_priv_isfinite(hi[j]) || !(lo[j] < hi[j]))

@@ -108,7 +108,8 @@ static buffon_density cap_make(double h, double rest, const double axis[3])
 
 buffon_density buffon_cap_about(double cut, const double axis[3])
 {
-    return cap_make(1 - cut, 1 + cut, axis);
+    const int valid = cut >= -1 && cut < 1;
+    return cap_make(valid ? 1 - cut : (double)NAN, 1 + cut, axis);
 }
 
 buffon_density buffon_cap(double cut)

@@ -26,16 +26,18 @@ buffon_status buffon_density_check(const buffon_density *g)
     return g->dim && g->uniforms ? BUFFON_OK : BUFFON_E_DIM;
 }
 
-/* Whether n points of `width` numbers each can exist in memory. */
-static int density_fits(size_t n, size_t width)
+/* Whether arrays of n points can exist in memory. */
+static int density_fits(size_t n, const buffon_density *g)
 {
-    return width == 0 || n <= SIZE_MAX / sizeof(double) / width;
+    const size_t most = SIZE_MAX / sizeof(double);
+    return n <= most && (!n || !g || (g->dim <= most / n && g->uniforms <= most / n));
 }
 
-/* Arrays that could not exist are left alone; all else is made NaN. */
-static void density_spoil(double *x, size_t n, size_t width)
+/* What a refused call leaves. Where n itself is senseless nothing can be said of the arrays, and they
+ * are left alone. */
+static void density_spoil(double *x, size_t n, size_t width, const buffon_density *g)
 {
-    if (x && density_fits(n, width))
+    if (x && density_fits(n, g))
         density_fill(x, (double)NAN, n * width);
 }
 
@@ -47,7 +49,7 @@ static buffon_status density_check_call(const void *out, const void *in, size_t 
         return status;
     if (n && (!out || !in))
         return BUFFON_E_NULL;
-    return density_fits(n, g->dim) && density_fits(n, g->uniforms) ? BUFFON_OK : BUFFON_E_DIM;
+    return density_fits(n, g) ? BUFFON_OK : BUFFON_E_DIM;
 }
 
 buffon_status buffon_priv_density_result(int result)
@@ -66,8 +68,8 @@ buffon_status buffon_density_sample(double *x, double *pdf, const double *u, siz
     if (status == BUFFON_OK && n)
         status = buffon_priv_density_result(g->ops->sample(x, pdf, u, n, g));
     if (status != BUFFON_OK) {
-        density_spoil(x, n, g ? g->dim : 0);
-        density_spoil(pdf, n, 1);
+        density_spoil(x, n, g ? g->dim : 0, g);
+        density_spoil(pdf, n, 1, g);
     }
     return status;
 }
@@ -80,7 +82,7 @@ buffon_status buffon_density_pdf(double *pdf, const double *x, size_t n, const b
     if (status == BUFFON_OK && n)
         status = buffon_priv_density_result(g->ops->pdf(pdf, x, n, g));
     if (status != BUFFON_OK)
-        density_spoil(pdf, n, 1);
+        density_spoil(pdf, n, 1, g);
     return status;
 }
 
@@ -106,7 +108,7 @@ buffon_status buffon_density_log_pdf(double *log_pdf, const double *x, size_t n,
     if (status == BUFFON_OK && n)
         status = buffon_priv_density_result(density_log_pdf(log_pdf, x, n, g));
     if (status != BUFFON_OK)
-        density_spoil(log_pdf, n, 1);
+        density_spoil(log_pdf, n, 1, g);
     return status;
 }
 
@@ -118,7 +120,7 @@ buffon_status buffon_density_invert(double *u, const double *x, size_t n, const 
     if (status == BUFFON_OK && n)
         status = buffon_priv_density_result(g->ops->invert(u, x, n, g));
     if (status != BUFFON_OK)
-        density_spoil(u, n, g ? g->uniforms : 0);
+        density_spoil(u, n, g ? g->uniforms : 0, g);
     return status;
 }
 

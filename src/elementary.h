@@ -43,7 +43,7 @@ static inline int buffon_priv_isfinite(double x)
     return x - x == 0;
 }
 
-/* sin(pi x) and cos(pi x) of any finite x, within 1.5 ulp. The reduction is exact: multiples of 1/2
+/* sin(pi x) and cos(pi x) of any finite x, within 1.4 ulp. The reduction is exact: multiples of 1/2
  * give exactly 0 and +-1. Zeros are +0, but sin(pi x) has the sign of x where x is a whole number.
  * NaN for infinities. */
 void buffon_priv_sincospi(double *s, double *c, double x);
@@ -53,20 +53,20 @@ double buffon_priv_cospi(double x);
 /* The natural logarithm, within 0.9 ulp, subnormals included. log(+-0) is -infinity; NaN below 0. */
 double buffon_priv_log(double x);
 
-/* log(1 + x), within 1.1 ulp. log1p(-1) is -infinity; NaN below -1. */
+/* log(1 + x), within 0.9 ulp. log1p(-1) is -infinity; NaN below -1. */
 double buffon_priv_log1p(double x);
 
-/* x - log(1 + x) for x > -1: never negative, within 4 ulp however small x is; within 16 ulp where
+/* x - log(1 + x) for x > -1: never negative, within 3 ulp however small x is; within 8 ulp where
  * |x| is above 0.4. */
 double buffon_priv_log1p_excess(double x);
 
 /* exp(x), within 1 ulp, rounded once where it is subnormal. */
 double buffon_priv_exp(double x);
 
-/* exp(x) - 1, within 1.3 ulp. */
+/* exp(x) - 1, within 1.4 ulp. */
 double buffon_priv_expm1(double x);
 
-/* The angle of the point (x, y) in units of pi, from -1 to 1, within 2 ulp; multiples of 1/4 are
+/* The angle of the point (x, y) in units of pi, from -1 to 1, within 1.8 ulp; multiples of 1/4 are
  * exact. Zeros and infinities go as in C's atan2; NaN for a NaN. */
 double buffon_priv_atan2pi(double y, double x);
 

@@ -53,10 +53,10 @@ static uint64_t engine_ceil(double x)
 /* Points of each replicate of a stratum when the run has `samples`: its share, at least two if there
  * are several strata, rounded up to what the point set needs. Grows with `samples`, so that a longer
  * run contains the shorter one. */
-static uint64_t engine_cell_points(const engine *e, size_t stratum, uint64_t samples, uint64_t round)
+static uint64_t engine_cell_points(const engine *e, size_t stratum, uint64_t samples)
 {
     const buffon_priv_problem *problem = e->setting.problem;
-    const uint64_t replicates = e->shape.replicates;
+    const uint64_t replicates = e->shape.replicates, round = e->shape.round;
     uint64_t n = samples;
     if (problem->strata > 1) {
         double all = 0;
@@ -69,10 +69,24 @@ static uint64_t engine_cell_points(const engine *e, size_t stratum, uint64_t sam
     return (n + round - 1) / round * round;
 }
 
-static uint64_t engine_round_of(const engine *e, size_t stratum)
+/* What the point set needs, for densities of different numbers of uniforms the least common multiple:
+ * 0 if that is too large. */
+static uint64_t engine_round_points(const engine *e)
 {
-    const size_t dim = e->setting.problem->stratum[stratum].g->uniforms + e->setting.problem->extra;
-    return e->points.round != NULL ? e->points.round(dim, &e->points) : 1;
+    const buffon_priv_problem *problem = e->setting.problem;
+    uint64_t round = 1;
+    for (size_t s = 0; s < problem->strata && round > 0 && e->points.round != NULL; s++) {
+        const size_t dim = problem->stratum[s].g->uniforms + problem->extra;
+        const uint64_t own = e->points.round(dim, &e->points);
+        uint64_t a = round, b = own;
+        while (b > 0) {
+            const uint64_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        round = own <= (UINT64_C(1) << 48) / (round / a) ? round / a * own : 0;
+    }
+    return round;
 }
 
 static buffon_status engine_targets(engine *e, uint64_t samples, uint64_t *target)
@@ -80,7 +94,7 @@ static buffon_status engine_targets(engine *e, uint64_t samples, uint64_t *targe
     const uint64_t limit = e->points.limit > 0 ? e->points.limit : UINT64_MAX >> 1;
     uint64_t all = 0;
     for (size_t s = 0; s < e->shape.strata; s++) {
-        const uint64_t n = engine_cell_points(e, s, samples, engine_round_of(e, s));
+        const uint64_t n = engine_cell_points(e, s, samples);
         if (n > limit || n > (UINT64_MAX >> 1) / e->shape.replicates - all / e->shape.replicates - 1)
             return BUFFON_E_SAMPLES;
         for (size_t r = 0; r < e->shape.replicates; r++)
@@ -123,7 +137,7 @@ static void engine_shape(engine *e)
         .parts = e->run.parts > 0 ? e->run.parts : 1,
         .looks = 1};
     memcpy(&e->shape.scale_m, &problem->scale_m, sizeof problem->scale_m);
-    e->shape.round = engine_round_of(e, 0);
+    e->shape.round = engine_round_points(e);
     if (engine_has_tolerance(e)) {
         for (uint64_t n = ENGINE_FIRST_LOOK; n < e->run.samples; n *= 2)
             e->shape.looks++;
@@ -272,7 +286,9 @@ static buffon_status engine_allocate(engine *e)
 {
     uint64_t blocks = 0, longest = 0;
     for (size_t c = 0; c < buffon_priv_shape_cells(&e->shape); c++) {
-        const uint64_t n = e->target[c];
+        /* A record may want more than this run: a gap before blocks that are done. */
+        const uint64_t here = e->record->target[c];
+        const uint64_t n = e->target[c] > here ? e->target[c] : here;
         blocks += (n + e->shape.block - 1) / e->shape.block;
         longest = n > longest ? n : longest;
     }
@@ -303,6 +319,8 @@ static buffon_status engine_make(engine *e, const buffon_priv_problem *problem,
                                        .points = &e->points,
                                        .shape = &e->shape};
     engine_shape(e);
+    if (e->shape.round == 0)
+        return BUFFON_E_POINTS;
     const size_t cells = buffon_priv_shape_cells(&e->shape);
     e->target = calloc(cells, sizeof *e->target);
     e->look = calloc(cells, sizeof *e->look);

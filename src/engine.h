@@ -19,6 +19,7 @@ typedef struct buffon_priv_batch {
     const double *extra; /* [extra * n] uniforms beyond those of the density */
     const double *f;     /* [components * n] */
     const double *p;     /* [n] the second integrand */
+    double *point;       /* [dim] for weigh's own use */
     const buffon_density *g;
 } buffon_priv_batch;
 

@@ -77,6 +77,20 @@ static uint64_t estimate_stratum_count(const buffon_priv_record *record, size_t 
     return count;
 }
 
+/* Are the blocks of a cell that are done the first ones, none left out? */
+static int estimate_gapless(const buffon_priv_record *record, size_t cell)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    const size_t cells = buffon_priv_shape_cells(shape);
+    const uint64_t blocks = buffon_priv_cell_count(&record->whole, cell, shape) / shape->block;
+    for (uint64_t p = 0; p < shape->parts; p++) {
+        if (record->done[p * cells + cell] != buffon_priv_record_owned(record, p, cell, blocks))
+            return 0;
+    }
+    return buffon_priv_cell_count(&record->tail, cell, shape) == 0 ||
+           blocks == record->target[cell] / shape->block;
+}
+
 /* Has every replicate of the stratum finished its sweeps over the cells of the point set? */
 static int estimate_swept(const buffon_priv_record *record, size_t stratum)
 {
@@ -85,7 +99,7 @@ static int estimate_swept(const buffon_priv_record *record, size_t stratum)
         const size_t cell = stratum * (size_t)shape->replicates + r;
         const uint64_t count = buffon_priv_cell_count(&record->whole, cell, shape) +
                                buffon_priv_cell_count(&record->tail, cell, shape);
-        if (count % shape->round != 0)
+        if (count % shape->round != 0 || !estimate_gapless(record, cell))
             return 0;
     }
     return 1;
@@ -440,6 +454,12 @@ buffon_status buffon_priv_record_estimate(buffon_estimate *out, const buffon_pri
     int missing = 0;
     for (size_t s = 0; s < shape->strata; s++)
         missing |= estimate_stratum_count(record, s) == 0;
+    if (!missing && shape->kind == BUFFON_PRIV_RATIO &&
+        estimate_mean(record, (size_t)shape->components).m == 0) {
+        for (size_t k = 0; k < shape->components; k++)
+            out[k] = buffon_priv_estimate_failed(BUFFON_E_EMPTY); /* no weight at all: 0 / 0 */
+        return BUFFON_E_EMPTY;
+    }
     for (size_t k = 0; k < shape->components; k++) {
         out[k] = buffon_priv_estimate_failed(BUFFON_W_INCOMPLETE);
         out[k].confidence = confidence != 0 ? confidence : 0.95;
@@ -464,10 +484,13 @@ buffon_status buffon_partial_covariance(double *cov, const buffon_partial *parti
     if (n == 0)
         return BUFFON_E_EMPTY;
     const buffon_priv_record *record = buffon_priv_partial_record(partial);
+    buffon_status status = record->shape.covariance ? BUFFON_OK : BUFFON_E_UNSUPPORTED;
+    for (size_t s = 0; s < record->shape.strata && status == BUFFON_OK; s++)
+        status = estimate_stratum_count(record, s) > 0 ? BUFFON_OK : BUFFON_E_EMPTY;
     for (size_t k = 0; k < n; k++) {
         for (size_t l = 0; l < n; l++) {
             double *entry = &cov[k * n + l];
-            if (!record->shape.covariance || buffon_priv_record_points(record) == 0)
+            if (status != BUFFON_OK)
                 *entry = NAN;
             else if (l < k)
                 *entry = cov[l * n + k];
@@ -475,7 +498,7 @@ buffon_status buffon_partial_covariance(double *cov, const buffon_partial *parti
                 *entry = buffon_priv_wide_to_double(estimate_spread_of(record, k, l).square);
         }
     }
-    return record->shape.covariance ? BUFFON_OK : BUFFON_E_UNSUPPORTED;
+    return status;
 }
 
 /* A sample as a record of one cell, so that there is one way from sums to an estimate. */

@@ -135,8 +135,8 @@ buffon_priv_wide buffon_priv_limbs_over(const uint64_t *limbs, size_t count, uin
     int bit = 64 * (int)exact_length(a, count);
     if (bit == 0)
         return (buffon_priv_wide){0.0, 0};
-    /* Long division, a bit at a time, past the point if need be, until 65 bits of quotient are there
-     * or nothing is left. */
+    /* Long division, a bit at a time, past the point if need be, until 65 bits of quotient are
+     * there or nothing is left. */
     do {
         bit--;
         uint64_t next = bit >= 0 ? a[bit / 64] >> (bit % 64) & 1 : 0, over = rest >> 63;
@@ -159,8 +159,8 @@ buffon_priv_wide buffon_priv_limbs_over(const uint64_t *limbs, size_t count, uin
 #define EXACT_SPREAD (BUFFON_STATS_SQUARES + 2)
 
 /* out += a factor 2^(64 at), or -= where negative. */
-static void exact_add_row(uint64_t *out, const uint64_t *a, size_t length, uint64_t factor, size_t at,
-                          int negative)
+static void exact_add_row(uint64_t *out, const uint64_t *a, size_t length, uint64_t factor,
+                          size_t at, int negative)
 {
     uint64_t mask = 0 - (uint64_t)negative, high = 0;
     for (size_t i = 0; i < length; i++) {

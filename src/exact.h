@@ -2,8 +2,8 @@
  *
  * A sum has BUFFON_STATS_SUM limbs and counts units of 2^-1152, a sum of products has
  * BUFFON_STATS_SQUARES limbs and counts units of 2^-2304, the unit squared, so n S_ab - S_a S_b is
- * again a whole number. Limbs are little first, two's complement; adding is modulo 2^(64 limbs), so it
- * commutes and associates whatever happens. Zeroed limbs are zero.
+ * again a whole number. Limbs are little first, two's complement; adding is modulo 2^(64 limbs), so
+ * it commutes and associates whatever happens. Zeroed limbs are zero.
  */
 #ifndef BUFFON_SRC_EXACT_H
 #define BUFFON_SRC_EXACT_H
@@ -13,10 +13,7 @@
 
 #include "wide.h"
 
-enum {
-    BUFFON_PRIV_SUM_UNIT = -1152,
-    BUFFON_PRIV_SQUARES_UNIT = -2304
-};
+enum { BUFFON_PRIV_SUM_UNIT = -1152, BUFFON_PRIV_SQUARES_UNIT = -2304 };
 
 /* sum += n m 2^e for finite m and |e| < 2^20. Bits of the term below the unit are cut toward zero:
  * there are none where n m 2^e is a double. */

@@ -63,8 +63,5 @@ buffon_status buffon_self_normalised(buffon_estimate *out, const buffon_integran
                                          .weigh = importance_weigh_ratio};
     if (p == NULL)
         return buffon_priv_refuse(out, h, BUFFON_E_NULL);
-    const buffon_status status = buffon_priv_engine_run(out, &problem, run);
-    if (status >= 0 && out->samples > 0 && out->value != out->value)
-        return buffon_priv_refuse(out, h, BUFFON_E_EMPTY); /* 0 / 0: no weight at all */
-    return status;
+    return buffon_priv_engine_run(out, &problem, run);
 }

@@ -8,11 +8,7 @@
 
 /* A lane takes four rows of 16 values at a time. Lanes start afresh every MOMENTS_CHUNK values:
  * fewer numbers in a row means less rounding. */
-enum {
-    MOMENTS_LANES = 16,
-    MOMENTS_ROWS = 4 * MOMENTS_LANES,
-    MOMENTS_CHUNK = 1024
-};
+enum { MOMENTS_LANES = 16, MOMENTS_ROWS = 4 * MOMENTS_LANES, MOMENTS_CHUNK = 1024 };
 
 /* Scales that keep squares and their sums inside the doubles: data beyond 2^500 come down by 2^600,
  * data below 2^-400 go up by it. That is exact for all but values 2^500 times below the largest. */
@@ -117,8 +113,8 @@ static void moments_about(buffon_priv_moments *out, const double *y, size_t n, d
     }
 }
 
-/* The first value serves as m at first: where it is within two standard deviations of the mean, which
- * is most of the time, one reading of the block is enough, and little of q cancels in the end. */
+/* The first value serves as m. Where it is within two standard deviations of the mean, as it mostly
+ * is, one reading of the block is enough: little of q cancels in the end. */
 static void moments_centre(buffon_priv_moments *out, const double *y, size_t n, double scale)
 {
     moments_about(out, y, n, y[0] * scale, scale);
@@ -162,8 +158,8 @@ static double moments_factor(const buffon_priv_moments *m)
 }
 
 /* total += sum (a - ma)(b - mb) of one chunk. */
-static void moments_cross_chunk(double *total, const double *a, const double *b, size_t n, double ma,
-                                double mb)
+static void moments_cross_chunk(double *total, const double *a, const double *b, size_t n,
+                                double ma, double mb)
 {
     double q[MOMENTS_LANES] = {0};
     size_t i = 0;

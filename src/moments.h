@@ -1,7 +1,7 @@
 /* Private. The summary of one block of values, and how it enters a sample.
  *
- * Value i goes to lane i % 16; the lanes are folded by a fixed tree. So the compiler may use vectors
- * of any width, and the bits are those of the plain loop.
+ * Value i goes to lane i % 16, in an order that tests/test_moments.c spells out, and the lanes are
+ * folded by a fixed tree. So the compiler may use vectors of any width without changing a bit.
  */
 #ifndef BUFFON_SRC_MOMENTS_H
 #define BUFFON_SRC_MOMENTS_H
@@ -11,10 +11,10 @@
 
 #include "buffon/stats.h"
 
-/* With y = 2^e y': m is a number near the mean of the y', r = sum(y' - m), q = sum((y' - m)^2). So the
- * sum of the y' is n m + r and the sum of their squares n m^2 + 2 m r + q, without cancellation. e is 0
- * unless max |y| is so large or small that q could leave the doubles. Where all values are equal,
- * m is that value and r = q = 0. min and max are of y itself, never -0. */
+/* With y = 2^e y': m is a number near the mean of the y', r = sum(y' - m), q = sum((y' - m)^2). So
+ * the sum of the y' is n m + r and the sum of their squares n m^2 + 2 m r + q, without
+ * cancellation. e is 0 unless max |y| is so large or small that q could leave the doubles. Where
+ * all values are equal, m is that value and r = q = 0. min and max are of y itself, never -0. */
 typedef struct buffon_priv_moments {
     size_t n;
     int e;

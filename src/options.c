@@ -86,19 +86,20 @@ buffon_status buffon_priv_points_check(const buffon_points *points, size_t dim)
         return BUFFON_E_POINTS;
     if (!options_all_zero(points->reserved, 4))
         return BUFFON_E_RESERVED;
-    if (points->round != NULL) {
-        const uint64_t round = points->round(dim, points);
-        if (round == 0 || round > UINT64_C(1) << 48)
-            return BUFFON_E_POINTS;
-        if (points->design == BUFFON_DESIGN_ANTITHETIC || points->design == BUFFON_DESIGN_STRATIFIED)
-            return round % 2 == 0 ? BUFFON_OK : BUFFON_E_POINTS;
-    } else if (points->design == BUFFON_DESIGN_ANTITHETIC ||
-               points->design == BUFFON_DESIGN_STRATIFIED) {
+    const uint64_t round = points->round != NULL ? points->round(dim, points) : 1;
+    if (round == 0 || round > UINT64_C(1) << 48)
         return BUFFON_E_POINTS;
-    }
+    if ((points->design == BUFFON_DESIGN_ANTITHETIC || points->design == BUFFON_DESIGN_STRATIFIED) &&
+        round % 2 != 0)
+        return BUFFON_E_POINTS;
     if (points->table_size != NULL && points->table_size(dim, points) == SIZE_MAX)
         return BUFFON_E_POINTS;
     return BUFFON_OK;
+}
+
+static size_t options_components(const buffon_integrand *f)
+{
+    return f->components > 0 ? f->components : 1;
 }
 
 static buffon_status options_stratum_check(const buffon_priv_problem *problem, size_t s)
@@ -116,7 +117,7 @@ static buffon_status options_stratum_check(const buffon_priv_problem *problem, s
     if (stratum->g->uniforms > UINT32_MAX - problem->extra || stratum->g->dim > UINT32_MAX)
         return BUFFON_E_DIM;
     if (stratum->g->dim != problem->stratum[0].g->dim ||
-        stratum->f->components != problem->stratum[0].f->components)
+        options_components(stratum->f) != options_components(problem->stratum[0].f))
         return BUFFON_E_DIM;
     if (problem->pdf && !buffon_priv_density_has_pdf(stratum->g))
         return BUFFON_E_UNSUPPORTED;

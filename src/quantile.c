@@ -8,6 +8,8 @@
 #define QUANTILE_NAN buffon_priv_from_bits(UINT64_C(0x7ff8000000000000))
 #define QUANTILE_INF buffon_priv_from_bits(UINT64_C(0x7ff0000000000000))
 
+#define QUANTILE_LEAST 1e-19 /* degrees of freedom: below it, P(|T| <= 1e308) is less than 1e-16 */
+
 /* t from the normal quantile z of the same tails: the first terms of the Cornish-Fisher series in
  * 1 / dof, M. Abramowitz, I. Stegun (1964), 26.7.5. The first term left out is about
  * z (1/20 + z^10 / 14000) / dof^5. */
@@ -34,8 +36,11 @@ double buffon_priv_student_central(double inside, double outside, double dof)
 {
     const double z = quantile_normal(inside, outside);
     double guess = QUANTILE_NAN, x;
-    if (z == 0 || outside == 0) {
-        return outside == 0 ? QUANTILE_INF : 0;
+    if (z == 0) {
+        return 0;
+    }
+    if (outside == 0 || dof < QUANTILE_LEAST) {
+        return QUANTILE_INF;
     }
     if (dof >= 1000 && z * z <= 0.01 * dof) {
         return quantile_student_series(z, dof);

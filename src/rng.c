@@ -8,7 +8,9 @@
  *
  * A vector may have any width up to 64 bytes: the layout fixes the bits, not the vector.
  */
-#include "buffon/rng.h"
+#include "guard.h"
+
+#include <buffon/rng.h>
 
 #include <string.h>
 

@@ -131,8 +131,8 @@ buffon_summary buffon_stats_summary(const buffon_stats *s)
         buffon_priv_wide_to_double(buffon_priv_wide_sqrt(buffon_priv_wide_div(variance, count)));
     out.min = n > 0 ? s->min : NAN;
     out.max = n > 0 ? s->max : NAN;
-    out.ess = buffon_priv_wide_to_double(
-        buffon_priv_wide_div(buffon_priv_wide_mul(sum, sum), squares));
+    out.ess =
+        buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(sum, sum), squares));
     out.max_share = buffon_priv_abs(buffon_priv_wide_to_double(share));
     out.tail_index = buffon_priv_tail_index(s->top, n);
     return out;

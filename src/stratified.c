@@ -31,12 +31,14 @@ static buffon_status stratified_check(const buffon_integrand *f, const buffon_st
         (strata->allocation != BUFFON_ALLOCATION_SHARE &&
          strata->allocation != BUFFON_ALLOCATION_NEYMAN))
         return BUFFON_E_RESERVED;
+    double shares = 0;
     for (size_t s = 0; s < strata->count; s++) {
         const buffon_stratum *stratum = &strata->stratum[s];
+        shares += stratum->share;
         if (stratum->reserved[0] != 0 || stratum->reserved[1] != 0)
             return BUFFON_E_RESERVED;
         if (!(stratum->weight - stratum->weight == 0) || !(stratum->share >= 0) ||
-            !(stratum->share < INFINITY))
+            !(shares < INFINITY))
             return BUFFON_E_STRATA;
         if (stratum->density == NULL || (stratum->f == NULL && f == NULL))
             return BUFFON_E_NULL;
@@ -130,7 +132,9 @@ static buffon_status stratified_pilot(buffon_estimate *out, buffon_priv_problem 
         stratified_reallocate(list, buffon_priv_partial_record(&partial));
     buffon_partial_free(&partial);
     free(equal);
-    return status < 0 ? status : BUFFON_OK;
+    if (status < 0) /* the pilot's points are its own: no index of the run names them */
+        return buffon_priv_refuse(out, list[0].f, status);
+    return BUFFON_OK;
 }
 
 buffon_status buffon_stratified(buffon_estimate *out, const buffon_integrand *f,

@@ -7,9 +7,9 @@
 #include "elementary.h"
 
 /* Excesses x over a threshold follow a generalised Pareto law, P(X > x) = (1 - theta x)^(-1/k) with
- * theta = -k / sigma. For a given theta the likelihood is greatest at k = mean log(1 - theta x). Zhang
- * and Stephens average theta over a grid, each weighted by its likelihood at that k. Dividing the
- * excesses by the largest leaves k as it is. */
+ * theta = -k / sigma. For a given theta the likelihood is greatest at k = mean log(1 - theta x).
+ * Zhang and Stephens average theta over a grid, each weighted by its likelihood at that k. Dividing
+ * the excesses by the largest leaves k as it is. */
 enum {
     TAIL_COUNT = 320, /* so that the 64 largest are a fifth of the values at most */
     TAIL_FEWEST = 32, /* excesses that a fit needs */

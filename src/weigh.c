@@ -6,15 +6,16 @@
 #include "weigh.h"
 
 /* f / g where g itself has left the doubles but its log has not; NaN where there is no number. */
-static double weigh_by_log(double f, const double *x, size_t i, size_t n,
-                                const buffon_density *g)
+static double weigh_by_log(double f, size_t i, const buffon_priv_batch *batch)
 {
-    double point[64], log_pdf;
-    if (g->ops->log_pdf == NULL || g->dim > sizeof point / sizeof *point)
+    const buffon_density *g = batch->g;
+    double log_pdf;
+    if (g->ops->log_pdf == NULL)
         return NAN;
     for (size_t j = 0; j < g->dim; j++)
-        point[j] = x[j * n + i];
-    if (g->ops->log_pdf(&log_pdf, point, 1, g) != 0 || !(log_pdf > -INFINITY && log_pdf < INFINITY))
+        batch->point[j] = batch->x[j * batch->n + i];
+    if (g->ops->log_pdf(&log_pdf, batch->point, 1, g) != 0 ||
+        !(log_pdf > -INFINITY && log_pdf < INFINITY))
         return NAN;
     const double size = buffon_priv_exp(buffon_priv_log(f < 0 ? -f : f) - log_pdf);
     return f < 0 ? -size : size;
@@ -32,7 +33,7 @@ int buffon_priv_ratio(double *y, double f, double pdf, size_t i, const buffon_pr
         *y = f;
         return 0;
     }
-    *y = weigh_by_log(f, batch->x, i, batch->n, batch->g);
+    *y = weigh_by_log(f, i, batch);
     if (*y == *y)
         return 0;
     *y = f / pdf; /* a subnormal pdf is still one */

@@ -97,7 +97,19 @@ static buffon_status worker_integrand(buffon_priv_worker *worker, double *f,
     return BUFFON_OK;
 }
 
-/* From a block of the point set to outputs y; *bad is the lowest point that failed. */
+/* The lowest of the points that a density which failed made NaN; 0 if it told none. */
+static size_t worker_first_nan(const double *x, size_t dim, size_t n)
+{
+    size_t lowest = n;
+    for (size_t j = 0; j < dim; j++) {
+        for (size_t i = 0; i < lowest; i++)
+            lowest = x[j * n + i] != x[j * n + i] ? i : lowest;
+    }
+    return lowest < n ? lowest : 0;
+}
+
+/* From a block of the point set to outputs y, NULL if it did not come to them; *bad is the lowest
+ * point that failed. */
 static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_priv_task *task,
                                      const double **y, size_t *bad)
 {
@@ -116,22 +128,27 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
                                      .extra = worker->u + g->uniforms * task->n,
                                      .f = worker->f,
                                      .p = worker->p,
+                                     .point = worker->row,
                                      .g = g};
     buffon_status status;
     *bad = 0;
-    *y = worker->f;
+    *y = NULL;
     if (setting->points->fill(worker->u, &block, setting->points) != 0)
         return BUFFON_E_POINTS;
     status = buffon_priv_density_result(
         g->ops->sample(worker->x, problem->pdf ? worker->pdf : NULL, worker->u, task->n, g));
-    if (status != BUFFON_OK)
+    if (status != BUFFON_OK) {
+        *bad = worker_first_nan(worker->x, g->dim, task->n);
         return status;
+    }
     status = worker_integrand(worker, worker->f, problem->stratum[stratum].f, task->n);
     if (status == BUFFON_OK && problem->p != NULL)
         status = worker_integrand(worker, worker->p, problem->p, task->n);
-    if (status != BUFFON_OK || problem->weigh == NULL)
+    if (status != BUFFON_OK)
         return status;
-    *y = worker->y;
+    *y = problem->weigh != NULL ? worker->y : worker->f;
+    if (problem->weigh == NULL)
+        return BUFFON_OK;
     return problem->weigh(worker->y, bad, &batch, problem);
 }
 
@@ -272,7 +289,7 @@ buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_
         worker_add(worker, task, y, NULL);
         return BUFFON_OK;
     }
-    if (status == BUFFON_OK || bad > 0)
+    if (y != NULL && (status == BUFFON_OK || bad > 0))
         status = worker_doubtful(worker, task, y == worker->f ? worker->f : worker->y, status, &bad);
     if (status != BUFFON_OK) {
         worker->bad_index = (task->k * shape->block + bad) * shape->replicates +

@@ -1,18 +1,18 @@
 #!/bin/sh
 # The same bits from every build: tests/bits.c prints results in hex, and what it prints must be the
 # same from every compiler, level of optimisation and instruction set of this machine, with and
-# without threads and vectors. tests/data/bits.txt, where it exists, is what it printed on the
-# machine where it was frozen.
+# without threads and vectors, and on emulated ones of 32 bits and of the other byte order.
+# tests/data/bits.txt, where it exists, is what it printed on the machine where it was frozen.
 . tests/tap.sh
 build=${BUILD:-build}/bits
 unset MAKEFLAGS MFLAGS MAKELEVEL CFLAGS CPPFLAGS LDFLAGS
 mkdir -p "$build"
 reference=tests/data/bits.txt
 
-# compare <name> <program>
+# compare <name> <program> [emulator]
 compare()
 {
-    tap_run "$1: runs" sh -c "'$2' > '$build/$1.txt'"
+    tap_run "$1: runs" sh -c "${3:-} '$2' > '$build/$1.txt'"
     if [ -f "$reference" ]; then
         tap_run "$1: the bits of $reference" diff "$reference" "$build/$1.txt"
     else
@@ -22,13 +22,23 @@ compare()
     fi
 }
 
-# try <compiler> <name> <CFLAGS> [CPPFLAGS]
+# try <compiler> <name> <CFLAGS> [CPPFLAGS [emulator]]
 try()
 {
     out=$build/$1-$2
     tap_run "$1-$2: builds" "${MAKE:-make}" --no-print-directory -j"${JOBS:-2}" "$out/tests/bits" \
         BUILD="$out" CC="$1" CFLAGS="$3" CPPFLAGS="${4:-}"
-    compare "$1-$2" "$out/tests/bits"
+    compare "$1-$2" "$out/tests/bits" "${5:-}"
+}
+
+# emulate <architecture> <emulator> <CFLAGS>
+emulate()
+{
+    if command -v "$1-linux-gnu-gcc" > /dev/null && command -v "$2" > /dev/null; then
+        try "$1-linux-gnu-gcc" O2 "$3" '' "$2 -L /usr/$1-linux-gnu"
+    else
+        tap_skip "$1" "it takes $1-linux-gnu-gcc and $2"
+    fi
 }
 
 # Dropped into a build that knows none of our flags: the pragmas of src/guard.h must do.
@@ -54,4 +64,6 @@ for compiler in gcc clang; do
     tap_run "$compiler-drop-in: builds" drop_in $compiler "$build/$compiler-drop-in"
     compare $compiler-drop-in "$build/$compiler-drop-in/bits"
 done
+emulate s390x qemu-s390x '-O2'
+emulate i686 qemu-i386 '-O2 -msse2 -mfpmath=sse'
 tap_done

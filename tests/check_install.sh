@@ -10,8 +10,8 @@ unset MAKEFLAGS MFLAGS MAKELEVEL DESTDIR PREFIX LIBDIR INCLUDEDIR
 abi=$(sed -n 's/^#define BUFFON_ABI //p' include/buffon/version.h)
 
 tap_run "make install DESTDIR PREFIX" \
-    "${MAKE:-make}" --no-print-directory -j1 install DESTDIR="$scratch/dest" PREFIX=/opt/buffon
-root=$scratch/dest/opt/buffon
+    "${MAKE:-make}" --no-print-directory -j1 install DESTDIR="$scratch/dest" PREFIX=/usr
+root=$scratch/dest/usr
 for file in include/buffon/buffon.h lib/libbuffon.a lib/libbuffon.so lib/libbuffon.so.$abi \
     lib/pkgconfig/buffon.pc; do
     test -f "$root/$file"
@@ -86,7 +86,7 @@ tap_empty "$(while read -r line; do
 done < "$scratch/readme.out" 2>&1)" "the README shows what it prints"
 
 tap_run "make uninstall" "${MAKE:-make}" --no-print-directory uninstall \
-    DESTDIR="$scratch/dest" PREFIX=/opt/buffon
+    DESTDIR="$scratch/dest" PREFIX=/usr
 tap_empty "$(find "$scratch/dest" ! -type d; find "$scratch/dest" -name buffon -path '*include*')" \
     "uninstall leaves nothing"
 tap_done

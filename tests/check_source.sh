@@ -42,12 +42,12 @@ trap 'rm -rf "$one"' EXIT
 for file in src/*.c; do echo "#include \"$(basename "$file")\""; done > "$one/all.c"
 as_one()
 {
-    $CC -Iinclude -Isrc ${CPPFLAGS:-} -std=c11 -O1 -Wall -Wextra -Werror "$@" -c "$one/all.c" \
-        -o "$one/all.o"
+    $CC -Iinclude -Isrc ${CPPFLAGS:-} -std=c11 -O0 -Wall -Wextra -Werror "$@" "$one/all.c"
 }
-tap_run "all sources compile as one file" as_one
-tap_run "and without threads" as_one -DBUFFON_NO_THREADS
-tap_run "and without vectors" as_one -DBUFFON_NO_VECTORS
+tap_run "all sources compile as one file" as_one -c -o "$one/all.o"
+tap_run "and without threads" as_one -fsyntax-only -DBUFFON_NO_THREADS
+tap_run "and without vectors" as_one -fsyntax-only -DBUFFON_NO_VECTORS
+tap_run "and with invariants checked" as_one -fsyntax-only -DBUFFON_VERIFY
 tap_empty "$(nm -g --defined-only "$one/all.o" 2> /dev/null | awk '{ print $NF }' |
     grep -Ev '^buffon_[a-z0-9_]+$')" "names seen by the linker are buffon_*"
 

@@ -55,6 +55,15 @@ static void fuzz_random(uint64_t times, size_t most, buffon_rng *rng)
     free(bytes);
 }
 
+/* Leaves good bytes for libFuzzer to begin with. */
+static void fuzz_write(const char *directory, int number, const uint8_t *bytes, size_t size)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/seed%d", directory, number);
+    FILE *file = fopen(path, "wb");
+    FUZZ_REQUIRE(file != NULL && fwrite(bytes, 1, size, file) == size && fclose(file) == 0);
+}
+
 static void fuzz_mutants(uint64_t times, const uint8_t *good, size_t size, buffon_rng *rng)
 {
     while (times-- > 0) {

@@ -90,7 +90,7 @@ static int fuzz_integrand(double *f, const double *x, size_t n, void *ctx)
 }
 
 /* Good bytes to start from: a finished run, a part, one with covariance and pairs, an empty one. */
-static void fuzz_seed(int which, buffon_rng *rng)
+static void fuzz_seed(int which, const char *directory, buffon_rng *rng)
 {
     const double lo = 0, hi = 1;
     const buffon_integrand f = {.batch = fuzz_integrand, .dim = 1, .components = 2};
@@ -112,6 +112,8 @@ static void fuzz_seed(int which, buffon_rng *rng)
     uint8_t *bytes = malloc(size);
     FUZZ_REQUIRE(bytes != NULL && status >= 0);
     FUZZ_REQUIRE(buffon_partial_save(bytes, size, &p) == BUFFON_OK);
+    if (directory != NULL)
+        fuzz_write(directory, which, bytes, size);
     const uint64_t accepted = fuzz_accepted;
     LLVMFuzzerTestOneInput(bytes, size);
     tap_ok(fuzz_accepted == accepted + 2, "partial %d: what was saved is accepted, its checksum "
@@ -122,13 +124,14 @@ static void fuzz_seed(int which, buffon_rng *rng)
     buffon_partial_free(&p);
 }
 
-int main(void)
+/* With a directory: leaves seeds there too. */
+int main(int argc, char **argv)
 {
     buffon_rng rng = buffon_rng_make(1, 0);
     fuzz_random(3000, 8192, &rng);
     tap_ok(fuzz_accepted == 0, "random bytes are refused");
     for (int which = 0; which < 4; which++)
-        fuzz_seed(which, &rng);
+        fuzz_seed(which, argc > 1 ? argv[1] : NULL, &rng);
     tap_ok(fuzz_accepted > 1000 && fuzz_refused > 1000,
            "the checks behind the checksum were reached: %llu accepted, %llu refused",
            (unsigned long long)fuzz_accepted, (unsigned long long)fuzz_refused);

@@ -1,11 +1,11 @@
 /* Shapes: orders of words in which a generator with keys could fail though each of its sequences
- * alone is good. Neighbours of one kind are laid side by side, or combined; test_rng_stats.c and the
- * battery read them as one stream. A shape makes chunk after chunk of words.
+ * alone is good. Neighbours of one kind are laid side by side, or combined; test_rng_stats.c and
+ * the battery read them as one stream. A shape makes chunk after chunk of words.
  */
 #ifndef TESTS_RNG_SHAPES_H
 #define TESTS_RNG_SHAPES_H
 
-#include "buffon/rng.h"
+#include <buffon/rng.h>
 
 enum { SHAPE_CHUNK = 65536, SHAPE_MEMBERS = 64 };
 
@@ -30,7 +30,7 @@ static uint64_t shape_reverse(uint64_t x, int bits)
     return y;
 }
 
-/* Row `chunk` of member m: below 64 for the kinds that differ in a bit, below 128 for the others. */
+/* Row `chunk` of member m, below 128; below 64 for the kinds that differ in a bit. */
 static void shape_row(uint64_t row[1024], int kind, unsigned m, uint64_t chunk)
 {
     buffon_rng_key key = {1, 2, BUFFON_PURPOSE_MAIN, 0, 0};

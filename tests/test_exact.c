@@ -41,7 +41,7 @@ static uint64_t random_runs(void)
 /* A double of any exponent, or of one between lo and hi. */
 static double random_double(int lo, int hi)
 {
-    double m = (double)(random_runs() >> (11 + random_below(3) * random_below(50)));
+    double m = (double)(random_runs() >> (11 + random_below(2) * random_below(50)));
     double x = ldexp(m, lo + random_below(hi - lo + 1) - 53);
     if (lo < -1000 && random_below(20) == 0)
         x = ldexp((double)(random_runs() >> (12 + random_below(52))), -1074);
@@ -50,8 +50,8 @@ static double random_double(int lo, int hi)
 
 static double random_any(void)
 {
-    static const double edges[] = {0x1.fffffffffffffp1023, 0x1p-1074, 0x1p-1022,
-                                   0x0.fffffffffffffp-1022, 1.0, 0.0};
+    static const double edges[] = {0x1.fffffffffffffp1023,  0x1p-1074, 0x1p-1022,
+                                   0x0.fffffffffffffp-1022, 1.0,       0.0};
     double x = random_below(10) == 0 ? edges[random_below(6)] : random_double(-1074, 1024);
     return isfinite(x) ? x : 1.0;
 }
@@ -298,8 +298,7 @@ static void test_over(void)
             buffon_priv_sum_add(sum, 0x1.8p53 + (double)random_below(8), n, 0);
             buffon_priv_sum_add(sum, 0.5, n, random_below(2));
         }
-        buffon_priv_wide w =
-            buffon_priv_limbs_over(sum, BUFFON_STATS_SUM, n, BUFFON_PRIV_SUM_UNIT);
+        buffon_priv_wide w = buffon_priv_limbs_over(sum, BUFFON_STATS_SUM, n, BUFFON_PRIV_SUM_UNIT);
         good = w.m == 0.0 || over_rounds(sum, n, w);
     }
     tap_ok(good, "a sum over a count is correctly rounded");

@@ -51,7 +51,8 @@ static void check_poisson(check *c, double count, double mean)
 }
 
 /* Counts against equal chances, or against expect if there is one: Wilson and Hilferty (1931). */
-static void check_chi2(check *c, const uint32_t *count, size_t cells, double n, const double *expect)
+static void check_chi2(check *c, const uint32_t *count, size_t cells, double n,
+                       const double *expect)
 {
     double sum = 0, k = (double)cells - 1;
     for (size_t i = 0; i < cells; i++) {
@@ -278,8 +279,8 @@ static void test_shape(const shape *s)
         const char *name;
         check (*run)(void);
     } list[] = {
-        {"repeats", words_repeat}, {"lags", words_lag},         {"edges", words_edge},
-        {"bits", words_bit},       {"bytes", words_byte},       {"pairs and triples", words_grid},
+        {"repeats", words_repeat}, {"lags", words_lag},           {"edges", words_edge},
+        {"bits", words_bit},       {"bytes", words_byte},         {"pairs and triples", words_grid},
         {"gaps", words_gap},       {"collisions", words_collide}, {"weights", words_weight},
     };
     for (size_t chunk = 0; chunk < CHUNKS; chunk++)

@@ -114,7 +114,7 @@ static double curve_square(double x, const void *ctx)
 }
 
 /* The estimates that `repeats` runs of n samples each make. */
-static double draw_estimates(story *s, text *out, uint64_t n, size_t repeats, double sigma)
+static void draw_estimates(text *out, uint64_t n, size_t repeats, double sigma)
 {
     double lo = 0, hi = CURVE_END, exact = curve_integral(CURVE_END);
     double *value = need_memory(repeats * sizeof *value);
@@ -139,7 +139,6 @@ static double draw_estimates(story *s, text *out, uint64_t n, size_t repeats, do
     panel_end(&p);
     text_put(out, "</div>");
     free(value);
-    return spread;
 }
 
 static void tell_average(story *s)
@@ -167,7 +166,7 @@ static void tell_average(story *s)
     text *out = story_figure(s, "two");
     for (int i = 0; i < 4; i++) {
         story_share(s, 0.2 + 0.1 * i, 0.3 + 0.1 * i);
-        draw_estimates(s, out, UINT64_C(1) << 2 * i, REPEATS, sigma);
+        draw_estimates(out, UINT64_C(1) << 2 * i, REPEATS, sigma);
     }
     story_caption(s, "%d runs each of 1, 4, 16 and 64 samples of the curve above: the primary "
                   "estimates are far from the true area %.4f (orange), their averages close in on "

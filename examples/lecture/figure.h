@@ -72,7 +72,7 @@ void globe_end(globe *g);
 /* Where a point of space is drawn; returns its distance towards the eye. */
 double globe_project(const globe *g, const double v[3], double *x, double *y);
 
-/* Dots; those on the far side get the class "far" too. x[3 * n], coordinate-major. */
+/* Dots; those on the far side get the class "far" too. x[3 * n], point after point. */
 void globe_dots(globe *g, const char *class, double size, const double *x, size_t n);
 /* The circle of directions v with v . middle = cosine, middle a unit vector. */
 void globe_circle(globe *g, const char *class, const double middle[3], double cosine);

@@ -73,8 +73,8 @@ void globe_dots(globe *g, const char *class, double size, const double *x, size_
     for (int near = 0; near < 2; near++) {
         size_t drawn = 0;
         for (size_t i = 0; i < n; i++) {
-            double v[3] = {x[i], x[n + i], x[2 * n + i]}, px, py;
-            if ((globe_project(g, v, &px, &py) >= 0) != near)
+            double px, py;
+            if ((globe_project(g, x + 3 * i, &px, &py) >= 0) != near)
                 continue;
             if (drawn++ == 0)
                 text_add(g->out, "<path class=\"dots %s%s\" stroke-width=\"%g\" d=\"", class,

@@ -141,7 +141,7 @@ typedef struct chapter {
 static const chapter chapters[] = {
     {"integrals", tell_integrals, 10},
     {"densities and variance", tell_densities, 10},
-    {"directions and light", tell_directions, 10},
+    {"directions and light", tell_light, 10},
     {"inverse CDF and the disk", tell_disk, 10},
     {"errors and intervals", tell_errors, 10},
     {"the picture", tell_picture, 10},

@@ -90,7 +90,7 @@ static const char page_figures[] =
     ".area.c3,.note.c3{fill:var(--c3);stroke:none}.area.c4,.note.c4{fill:var(--c4);stroke:none}"
     ".area.c5,.note.c5{fill:var(--c5);stroke:none}.area.pale,.note.pale{fill:var(--soft);"
     "stroke:none}\n"
-    "svg text.halo{stroke:var(--paper)}\n"
+    ".note.halo{stroke:var(--paper)}\n"
     ".dots.pale{stroke-opacity:.55}\n"
     ".dots.far{stroke-opacity:.26}\n"
     ".line.far{stroke-opacity:.3}\n"

@@ -4,7 +4,8 @@
  *     page.c        the page: head, style, sections, code, tables
  *     integrals.c   the needle, basic Monte Carlo, rejection, why not quadrature
  *     densities.c   pdf, primary and average estimators, importance sampling, variance
- *     directions.c  reflected radiance, sphere, cap, stratification, hemisphere
+ *     light.c       reflected radiance, cap, stratification, weighted hemisphere
+ *     sphere.c      the uniform sphere, and how hemispheres look
  *     disk.c        inverse CDF and the disk
  *     errors.c      the error against N, and how often the interval is right
  *     picture.c     the picture; render.c makes it
@@ -73,7 +74,8 @@ void story_check(buffon_status status, const char *what);
 /* The chapters. */
 void tell_integrals(story *s);
 void tell_densities(story *s);
-void tell_directions(story *s);
+void tell_light(story *s); /* calls tell_sphere where its turn comes */
+void tell_sphere(story *s);
 void tell_disk(story *s);
 void tell_errors(story *s);
 void tell_picture(story *s);
@@ -84,6 +86,9 @@ void tell_picture(story *s);
 double curve(const double *x, void *ctx);
 double curve_integral(double end); /* from 0, in closed form */
 void draw_curve(panel *p, const char *class, int filled);
+
+/* Three panels: the disk projected up, uniform directions, cosine-weighted ones. */
+void draw_hemispheres(text *out);
 
 /* Formulas: a fraction, and an integral or sum with its limits. */
 #define FRAC(a, b) "<span class=\"fr\"><span>" a "</span><span>" b "</span></span>"

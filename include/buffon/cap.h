@@ -23,8 +23,9 @@ BUFFON_BEGIN
  *           The edge counts as inside, with 2^-50 to spare for rounding
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE
- *  Exact:   about +z: x and y within 4 ulp, z within 1 ulp of 1, at any height; about another axis
- *           each coordinate within 2^-50. g within 2 ulp (tests/test_sampler_accuracy.c)
+ *  Exact:   about +z: x and y within 4 ulp, z within 2^-52, at any height; about another axis |x|
+ *           within 2^-49 of 1 and the height along it within 2^-50. g within 2 ulp, of an angle 6
+ *           (tests/test_sampler_accuracy.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap(double cut);
@@ -44,8 +45,8 @@ BUFFON_API buffon_density buffon_cap_about(double cut, const double axis[3]);
  *
  *  In:      half_angle  in radians, 0 < half_angle <= pi
  *           axis[3]     finite, not zero
- *  Law, Draws, Exact, Returns: as buffon_cap_about. An angle below 1e-153, whose g would exceed the
- *           doubles, is refused too
+ *  Law, Draws, Exact, Returns: as buffon_cap_about. An angle below 2.2e-154, whose g would exceed
+ *           the doubles, is refused too
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap_angle(double half_angle, const double axis[3]);
@@ -54,8 +55,8 @@ BUFFON_API buffon_density buffon_cap_angle(double half_angle, const double axis[
  *
  *  In:      one_minus_cos  h = 1 - cos(half angle), 0 < h <= 2
  *           axis[3]        finite, not zero
- *  Law, Draws, Exact, Returns: as buffon_cap_about. A height below 1e-308, whose g would exceed the
- *           doubles, is refused too
+ *  Law, Draws, Exact, Returns: as buffon_cap_about. A height below 2^-1022, whose g would exceed
+ *           the doubles, is refused too
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap_height(double one_minus_cos, const double axis[3]);
@@ -69,7 +70,7 @@ BUFFON_API buffon_density buffon_cap_height(double one_minus_cos, const double a
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also when `from`
  *           lies in or on the sphere, or so far off that g would exceed the doubles
- *  Exact:   h within 8 ulp where the distance is 1.1 radii or more; nearer, as far as distance minus
+ *  Exact:   g within 8 ulp where the distance is 1.1 radii or more; nearer, as far as distance minus
  *           radius is known (tests/test_sampler_accuracy.c)
  *  Since:   0.1
  */

@@ -16,7 +16,7 @@ BUFFON_BEGIN
  *           2^-49 of the disk's area is drawn in to its edge
  *  Draws:   2
  *  Returns: a density of 2 coordinates; it carries BUFFON_E_SHAPE
- *  Exact:   x and y within 3 ulp each, g within 2 ulp (tests/test_sampler_accuracy.c)
+ *  Exact:   x and y within 4 ulp each, g within 2 ulp (tests/test_sampler_accuracy.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_disk(double radius);

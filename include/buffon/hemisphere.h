@@ -36,8 +36,8 @@ BUFFON_API buffon_density buffon_hemisphere_about(const double axis[3]);
  *           with z > 0, 0 elsewhere and where |x|^2 is further than 2^-20 from 1
  *  Draws:   2
  *  Returns: a density of 3 coordinates
- *  Exact:   x, y, z and g within 3 ulp each; z > 0 always, since it is made as 2 sqrt(v (1 - v)) from
- *           the uniform v that determines the radius (tests/test_sampler_accuracy.c)
+ *  Exact:   x and y within 4 ulp each, z and g within 3; z > 0 always, since it is 2 sqrt(v (1 - v))
+ *           with v the uniform that determines the radius (tests/test_sampler_accuracy.c)
  *  Source:  T. Malley (1988), A shading method for computer generated images
  *  Since:   0.1
  */
@@ -48,8 +48,8 @@ BUFFON_API buffon_density buffon_hemisphere_cosine(void);
  *  In:      axis[3]  any length but zero, finite: the normal of a surface
  *  Law, Draws: as buffon_hemisphere_cosine, turned from +z to the axis
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL or BUFFON_E_SHAPE
- *  Exact:   each coordinate within 2^-50; g with the point as buffon_hemisphere_cosine, g at a given
- *           point within 2^-51
+ *  Exact:   |x| within 2^-49 of 1; g along with the point as buffon_hemisphere_cosine, g at a given
+ *           point within 2^-51 (tests/test_sampler_accuracy.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_hemisphere_cosine_about(const double axis[3]);

@@ -45,8 +45,8 @@ typedef struct buffon_inversion {
  *           reach u within the support (those x are NaN); BUFFON_E_UNSUPPORTED where a pdf or cdf is
  *           wanted and not there. The values of pdf are passed on as they are
  *  Exact:   quantile: what the function gives. cdf: F(x) crosses u, as computed, at x or within
- *           4 ulp of it. Table: x within 4 ulp of the larger end of its piece
- *           (tests/test_sampler_accuracy.c)
+ *           4 ulp of it. Table: F(x), relative to the whole, is u within 2^-51 and what 2 ulp of x
+ *           are worth (tests/test_sampler_accuracy.c)
  *  Repeat:  each x depends on its u alone
  *  Cost:    cdf: some 5 to 15 calls of each function a point, never more than 320; table: the
  *           logarithm of count

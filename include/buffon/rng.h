@@ -36,11 +36,11 @@ BUFFON_BEGIN
 
 /** What numbers are for. No two uses share one: a pilot never repeats the main run. */
 typedef enum buffon_purpose {
-    BUFFON_PURPOSE_MAIN = 0,     /* the coordinates of an estimate */
-    BUFFON_PURPOSE_PILOT = 1,    /* of its pilot */
-    BUFFON_PURPOSE_RNG = 2,      /* the sequence of a buffon_rng */
-    BUFFON_PURPOSE_SHUFFLE = 3,  /* scrambles and permutations of point sets */
-    BUFFON_PURPOSE_USER = 128    /* 128 to 255 are the caller's */
+    BUFFON_PURPOSE_MAIN = 0,    /* the coordinates of an estimate */
+    BUFFON_PURPOSE_PILOT = 1,   /* of its pilot */
+    BUFFON_PURPOSE_RNG = 2,     /* the sequence of a buffon_rng */
+    BUFFON_PURPOSE_SHUFFLE = 3, /* scrambles and permutations of point sets */
+    BUFFON_PURPOSE_USER = 128   /* 128 to 255 are the caller's */
 } buffon_purpose;
 
 /** Which of the independent sequences: the types hold exactly the values allowed. */
@@ -85,7 +85,8 @@ BUFFON_API void buffon_rng_uniforms_at(double *u, size_t n, const buffon_rng_key
  *  Source:  Salmon et al. (2011)
  *  Since:   0.1
  */
-BUFFON_API void buffon_rng_philox(uint32_t out[4], const uint32_t counter[4], const uint32_t key[2]);
+BUFFON_API void buffon_rng_philox(uint32_t out[4], const uint32_t counter[4],
+                                  const uint32_t key[2]);
 
 #define BUFFON_RNG_BUFFER 256
 

@@ -1,0 +1,501 @@
+/* The elementary functions: errors in units of the last place against long double, special values,
+ * and the bits themselves. Needs a long double of 64 bits or more for the first part. */
+#include <float.h>
+#include <math.h>
+
+#include "elementary.h"
+#include "tap.h"
+
+#ifndef TEST_ARGUMENTS
+#define TEST_ARGUMENTS 40000 /* of each kind, for each function */
+#endif
+
+#define PI_L 3.14159265358979323846264338327950288L
+
+static uint64_t test_state;
+
+/* splitmix64. */
+static uint64_t test_word(void)
+{
+    uint64_t z = test_state += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return z ^ (z >> 31);
+}
+
+static double test_uniform(double lo, double hi)
+{
+    return lo + (hi - lo) * ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
+}
+
+/* Random bits: every exponent alike. */
+static double test_any(void)
+{
+    double x;
+    do {
+        x = buffon_priv_from_bits(test_word());
+    } while (!isfinite(x));
+    return x;
+}
+
+/* A few doubles away from x. */
+static double test_near(double x)
+{
+    const int steps = (int)(test_word() % 7);
+    int i;
+    for (i = 0; i < steps; i++) {
+        x = nextafter(x, test_word() & 1 ? INFINITY : -INFINITY);
+    }
+    return x;
+}
+
+/* |got - want| in units of the last place of want. */
+static double test_ulps(double got, long double want)
+{
+    int exponent;
+    if (isnan(got) || isnan(want)) {
+        return isnan(got) && isnan(want) ? 0 : HUGE_VAL;
+    }
+    if (isinf(got) || fabsl(want) > (long double)DBL_MAX) {
+        return (double)want == got ? 0 : HUGE_VAL;
+    }
+    frexpl(want, &exponent);
+    exponent = exponent < -1021 ? -1021 : exponent;
+    return (double)fabsl(ldexpl((long double)got - want, 53 - exponent));
+}
+
+/* Valgrind, for one, computes long doubles in 53 bits. */
+static int test_long_double(void)
+{
+    volatile long double one = 1, tiny = 0x1p-60L;
+    return LDBL_MANT_DIG >= 64 && one + tiny > one;
+}
+
+/* ---- references --------------------------------------------------------------------------- */
+
+static long double test_sinpil(double x)
+{
+    long double r = fmodl((long double)x, 2);
+    const int turns = (int)lrintl(2 * r);
+    r -= turns * 0.5L;
+    switch (turns & 3) {
+    case 0: return sinl(PI_L * r);
+    case 1: return cosl(PI_L * r);
+    case 2: return -sinl(PI_L * r);
+    default: return -cosl(PI_L * r);
+    }
+}
+
+static long double test_cospil(double x)
+{
+    long double r = fmodl((long double)x, 2);
+    const int turns = (int)lrintl(2 * r);
+    r -= turns * 0.5L;
+    switch (turns & 3) {
+    case 0: return cosl(PI_L * r);
+    case 1: return -sinl(PI_L * r);
+    case 2: return -cosl(PI_L * r);
+    default: return sinl(PI_L * r);
+    }
+}
+
+static long double test_excessl(double x)
+{
+    long double term = x, sum = 0, y = x;
+    int k;
+    if (fabs(x) > 0.05) {
+        return y - log1pl(y);
+    }
+    for (k = 2; k < 20; k++) {
+        term *= -y;
+        sum -= term / k;
+    }
+    return sum;
+}
+
+/* One step of Newton's from the value in question. */
+static long double test_normall(double u)
+{
+    const long double x = buffon_priv_normal_quantile(u), root = sqrtl(0.5L), q = u - 0.5L;
+    const long double density = expl(-0.5L * x * x) / sqrtl(2 * PI_L);
+    if (fabsl(q) < 0.25L) {
+        return x - (0.5L * erfl(x * root) - q) / density;
+    }
+    return q < 0 ? x - (0.5L * erfcl(-x * root) - u) / density
+                 : x + (0.5L * erfcl(x * root) - (1 - (long double)u)) / density;
+}
+
+static long double test_logl(double x) { return logl((long double)x); }
+static long double test_log1pl(double x) { return log1pl((long double)x); }
+static long double test_expl(double x) { return expl((long double)x); }
+static long double test_expm1l(double x) { return expm1l((long double)x); }
+
+/* ---- accuracy ----------------------------------------------------------------------------- */
+
+typedef struct test_function {
+    const char *name;
+    double (*f)(double);
+    long double (*reference)(double);
+    double (*argument)(int kind); /* kinds 0, 1, 2 ... */
+    int kinds;
+    double bound; /* in ulps: what the header says */
+} test_function;
+
+static double test_turns(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(0, 2);
+    case 1: return test_uniform(-0x1p20, 0x1p20);
+    case 2: return test_near((double)(int64_t)(test_word() % 41) * 0.25 - 5);
+    case 3: return test_any();
+    default: return (double)(int64_t)(test_word() >> 9) - 0x1p54;
+    }
+}
+
+static double test_positive(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(0, 1);
+    case 1: return test_uniform(0.5, 2);
+    case 2: return fabs(test_any());
+    case 3: return test_near(1);
+    default: return buffon_priv_from_bits(test_word() >> 12);
+    }
+}
+
+static double test_above_minus_one(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(-1, 1);
+    case 1: return test_uniform(-0.3, 0.45);
+    case 2: return fabs(test_any());
+    case 3: return test_uniform(-1, 1) * test_uniform(0, 0x1p-20);
+    default: return -1 + test_uniform(0, 0x1p-30);
+    }
+}
+
+static double test_small(int kind)
+{
+    return kind == 0 ? test_uniform(-0.29, 0.41) : test_uniform(-0.29, 0.29) * 0x1p-15;
+}
+
+static double test_exponent(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(-1, 1);
+    case 1: return test_uniform(-745.2, 709.8);
+    case 2: return test_any();
+    case 3: return test_uniform(-746, -707);
+    default: return test_uniform(-50, 3);
+    }
+}
+
+static double test_probability(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(0, 1);
+    case 1: return test_near(test_word() & 1 ? 0.075 : 0.925);
+    case 2: return exp(test_uniform(-740, -1));
+    case 3: return 1 - exp(test_uniform(-36, -1));
+    default: return 0.5 + test_uniform(-1, 1) * exp(test_uniform(-36, -2));
+    }
+}
+
+static const test_function test_functions[] = {
+    {"sinpi", buffon_priv_sinpi, test_sinpil, test_turns, 5, 1.4},
+    {"cospi", buffon_priv_cospi, test_cospil, test_turns, 5, 1.4},
+    {"log", buffon_priv_log, test_logl, test_positive, 5, 0.9},
+    {"log1p", buffon_priv_log1p, test_log1pl, test_above_minus_one, 5, 0.9},
+    {"log1p_excess, small", buffon_priv_log1p_excess, test_excessl, test_small, 2, 3},
+    {"log1p_excess", buffon_priv_log1p_excess, test_excessl, test_above_minus_one, 5, 8},
+    {"exp", buffon_priv_exp, test_expl, test_exponent, 5, 1.0},
+    {"expm1", buffon_priv_expm1, test_expm1l, test_exponent, 5, 1.4},
+    {"normal_quantile", buffon_priv_normal_quantile, test_normall, test_probability, 5, 8},
+};
+
+static void test_accuracy(const test_function *t)
+{
+    double worst = 0, where = 0;
+    int kind, i;
+    test_state = 1;
+    for (kind = 0; kind < t->kinds; kind++) {
+        for (i = 0; i < TEST_ARGUMENTS; i++) {
+            const double x = t->argument(kind);
+            const double ulps = test_ulps(t->f(x), t->reference(x));
+            if (!(ulps <= worst)) {
+                worst = ulps;
+                where = x;
+            }
+        }
+    }
+    tap_ok(worst <= t->bound, "%s: at most %.2f ulp, of %.1f allowed (at %a)", t->name, worst,
+           t->bound, where);
+}
+
+static void test_accuracy_angle(void)
+{
+    double worst = 0, wx = 0, wy = 0;
+    int i;
+    test_state = 2;
+    for (i = 0; i < 4 * TEST_ARGUMENTS; i++) {
+        const double a = i & 1 ? test_uniform(-1, 1) : test_any();
+        const double b = i % 4 < 2 ? a * test_uniform(-4, 4) : i & 1 ? test_uniform(-1, 1) : test_any();
+        const double y = i & 8 ? a : b, x = i & 8 ? b : a;
+        const long double want = atan2l((long double)y, (long double)x) / PI_L;
+        const double ulps = test_ulps(buffon_priv_atan2pi(y, x), want);
+        if (!(ulps <= worst)) {
+            worst = ulps;
+            wx = x;
+            wy = y;
+        }
+    }
+    tap_ok(worst <= 1.8, "atan2pi: at most %.2f ulp, of 1.8 allowed (at %a, %a)", worst, wy, wx);
+}
+
+/* ---- exact and special values ------------------------------------------------------------- */
+
+static void test_half_turns(void)
+{
+    static const double sines[4] = {0, 1, 0, -1}, cosines[4] = {1, 0, -1, 0};
+    int wrong = 0;
+    double s, c;
+    int64_t n;
+    for (n = 0; n < 100000; n++) {
+        const double start = n < 50000 ? 0 : 0x1p51; /* half turns are doubles up to there */
+        const double x = start + 0.5 * (double)n;
+        buffon_priv_sincospi(&s, &c, x);
+        wrong += tap_bits(s) != tap_bits(sines[n & 3]) || tap_bits(c) != tap_bits(cosines[n & 3]);
+        buffon_priv_sincospi(&s, &c, -x);
+        wrong += tap_bits(s) != tap_bits(-sines[n & 3]) || tap_bits(c) != tap_bits(cosines[n & 3]);
+    }
+    tap_ok(wrong == 0, "sincospi of multiples of 1/2 is exact, with the signs of zero");
+    wrong = 0;
+    for (n = 1; n < 100; n++) {
+        buffon_priv_sincospi(&s, &c, 0x1p53 - (double)n);
+        wrong += s != 0 || c != (n & 1 ? -1 : 1);
+        buffon_priv_sincospi(&s, &c, -0x1p53 * (double)n);
+        wrong += s != 0 || c != 1;
+    }
+    buffon_priv_sincospi(&s, &c, DBL_MAX);
+    wrong += s != 0 || c != 1;
+    tap_ok(wrong == 0, "sincospi of large numbers sees odd and even");
+    buffon_priv_sincospi(&s, &c, -INFINITY);
+    tap_ok(isnan(s) && isnan(c), "sincospi of an infinity is NaN");
+    buffon_priv_sincospi(&s, &c, NAN);
+    tap_ok(isnan(s) && isnan(c), "sincospi of NaN is NaN");
+}
+
+static void test_odd(void)
+{
+    int wrong = 0, i;
+    test_state = 3;
+    for (i = 0; i < TEST_ARGUMENTS; i++) {
+        const double x = test_turns(i % 4);
+        wrong += tap_bits(buffon_priv_sinpi(-x)) != tap_bits(-buffon_priv_sinpi(x));
+        wrong += tap_bits(buffon_priv_cospi(-x)) != tap_bits(buffon_priv_cospi(x));
+    }
+    tap_ok(wrong == 0, "sinpi is odd and cospi is even, to the bit");
+    wrong = 0;
+    for (i = 0; i < TEST_ARGUMENTS; i++) {
+        const double u = ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
+        wrong += buffon_priv_normal_quantile(u) != -buffon_priv_normal_quantile(1 - u);
+        wrong += buffon_priv_normal_quantile(u) != buffon_priv_normal_central(u - 0.5) &&
+                 fabs(u - 0.5) >= 0.25 && u > 0.5;
+    }
+    tap_ok(wrong == 0, "the normal quantile of 1 - u is that of u negated, to the bit");
+}
+
+/* Equal bits, or NaN for NaN. */
+static int test_same(double got, double want)
+{
+    return (isnan(got) && isnan(want)) || tap_bits(got) == tap_bits(want);
+}
+
+static void test_specials(void)
+{
+    static const double arguments[] = {0.0, -0.0, 1, -1, -2, INFINITY, -INFINITY, NAN, 0x1p-1074};
+    size_t i;
+    int wrong = 0;
+    for (i = 0; i < sizeof arguments / sizeof *arguments; i++) {
+        const double x = arguments[i];
+        wrong += !test_same(buffon_priv_log(x), x == 0x1p-1074 ? -0x1.74385446d71c3p+9 : log(x));
+        wrong += !test_same(buffon_priv_log1p(x), x == 1 ? 0x1.62e42fefa39efp-1 : log1p(x));
+        wrong += !test_same(buffon_priv_exp(x), fabs(x) > 0.5 && isfinite(x) ? buffon_priv_exp(x)
+                                                                             : exp(x));
+        wrong += !test_same(buffon_priv_expm1(x), fabs(x) > 0.5 && isfinite(x)
+                                                      ? buffon_priv_expm1(x)
+                                                      : expm1(x));
+        wrong += !test_same(buffon_priv_log1p_excess(x),
+                            fabs(x) == 0   ? 0
+                            : x == -1      ? INFINITY
+                            : x > 0.5      ? buffon_priv_log1p_excess(x)
+                            : x > -1       ? 0
+                                           : NAN);
+        if (wrong) {
+            tap_note("first wrong at %a", x);
+            break;
+        }
+    }
+    tap_ok(wrong == 0, "log, log1p, exp, expm1 of zeros, infinities, NaN");
+    tap_ok(buffon_priv_exp(709.79) == INFINITY && buffon_priv_exp(-745.14) == 0 &&
+               buffon_priv_exp(-745) == 0x1p-1074 && buffon_priv_exp(1e300) == INFINITY &&
+               buffon_priv_expm1(709.79) == INFINITY && buffon_priv_expm1(-1e300) == -1,
+           "exp and expm1 end where doubles end");
+    tap_ok(buffon_priv_normal_quantile(0) == -INFINITY && buffon_priv_normal_quantile(1) == INFINITY &&
+               buffon_priv_normal_quantile(0.5) == 0 && isnan(buffon_priv_normal_quantile(-0x1p-1074)) &&
+               isnan(buffon_priv_normal_quantile(nextafter(1, 2))) &&
+               isnan(buffon_priv_normal_quantile(NAN)) &&
+               buffon_priv_normal_central(-0.5) == -INFINITY &&
+               buffon_priv_normal_central(0x1p-1000) > 0,
+           "the normal quantile of 0, 1, 1/2 and beyond");
+}
+
+static void test_angles(void)
+{
+    static const double values[] = {0.0, -0.0, 1, -1, 0x1p-1074, -0x1p-1074, DBL_MAX, -DBL_MAX,
+                                    INFINITY, -INFINITY};
+    size_t i, j;
+    int wrong = 0;
+    for (i = 0; i < 10; i++) {
+        for (j = 0; j < 10; j++) {
+            const double want = atan2(values[i], values[j]) / acos(-1);
+            const double got = buffon_priv_atan2pi(values[i], values[j]);
+            const int exact = fabs(values[i]) == fabs(values[j]) || fmod(want, 0.25) == 0;
+            wrong += exact ? tap_bits(got) != tap_bits(want)
+                           : !(fabs(got - want) <= 1e-15) || signbit(got) != signbit(want);
+        }
+        wrong += !isnan(buffon_priv_atan2pi(values[i], NAN));
+        wrong += !isnan(buffon_priv_atan2pi(NAN, values[i]));
+    }
+    tap_ok(wrong == 0, "atan2pi of zeros, infinities and the largest and smallest");
+}
+
+/* ---- parts of a double -------------------------------------------------------------------- */
+
+static void test_parts(void)
+{
+    static const double specials[] = {0.0, -0.0, INFINITY, -INFINITY, NAN};
+    int wrong[4] = {0, 0, 0, 0}, i, k, theirs;
+    test_state = 4;
+    for (i = 0; i < 400000; i++) {
+        const double x = i < 5         ? specials[i]
+                         : i % 3 == 0  ? buffon_priv_from_bits(test_word() >> 12)
+                         : i % 3 == 1 ? test_any()
+                                      : test_uniform(-2, 2);
+        k = (int)(test_word() % 4400) - 2200;
+        wrong[0] += !test_same(buffon_priv_ldexp(x, k), ldexp(x, k));
+        wrong[1] += !test_same(buffon_priv_frexp(&k, x), frexp(x, &theirs));
+        wrong[1] += isfinite(x) ? k != theirs : k != 0;
+        wrong[2] += !test_same(buffon_priv_nextup(x), nextafter(x, INFINITY));
+        wrong[3] += !test_same(buffon_priv_nextdown(x), nextafter(x, -INFINITY));
+    }
+    wrong[0] += buffon_priv_ldexp(1, 2000000000) != INFINITY;
+    wrong[0] += buffon_priv_ldexp(-DBL_MAX, -2000000000) != 0;
+    wrong[0] += buffon_priv_ldexp(0x1p-1074, 2097) != 0x1p1023;
+    tap_ok(wrong[0] == 0, "ldexp agrees with libm to the bit");
+    tap_ok(wrong[1] == 0, "frexp agrees with libm to the bit");
+    tap_ok(wrong[2] == 0 && buffon_priv_nextup(-0x1p-1074) == 0, "nextup agrees with nextafter");
+    tap_ok(wrong[3] == 0, "nextdown agrees with nextafter");
+    tap_ok(buffon_priv_isfinite(DBL_MAX) && !buffon_priv_isfinite(INFINITY) &&
+               !buffon_priv_isfinite(NAN) && tap_bits(buffon_priv_copysign(2, -0.0)) == tap_bits(-2) &&
+               tap_bits(buffon_priv_abs(-0.0)) == 0,
+           "isfinite, copysign and abs");
+}
+
+/* ---- frozen bits -------------------------------------------------------------------------- */
+
+/* FNV-1a over words; every NaN counts as one. */
+static uint64_t test_hash(uint64_t hash, double x)
+{
+    return (hash ^ (isnan(x) ? 1 : tap_bits(x))) * UINT64_C(0x100000001b3);
+}
+
+static double test_both(double x)
+{
+    double s, c;
+    buffon_priv_sincospi(&s, &c, x);
+    return s + c * 0x1p-30;
+}
+
+static void test_frozen(const char *name, double (*f)(double), double (*argument)(int),
+                        uint64_t want)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    int i;
+    test_state = 5;
+    for (i = 0; i < 20000; i++) {
+        hash = test_hash(hash, f(argument(i % 4)));
+    }
+    tap_ok(hash == want, "bits of %s: %016llx", name, (unsigned long long)hash);
+}
+
+/* Arguments made without libm, whose bits might differ. */
+static double test_frozen_unit(int kind)
+{
+    const double u = ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
+    return kind == 0 ? u : kind == 1 ? u * 0.1 : kind == 2 ? 1 - u * 0x1p-20 : u * 0x1p-200;
+}
+
+static double test_frozen_signed(int kind)
+{
+    const double u = test_uniform(-1, 1);
+    return kind == 0 ? u : kind == 1 ? u * 30 : kind == 2 ? u * 760 : u * 0x1p-12;
+}
+
+static double test_angle(double y)
+{
+    return buffon_priv_atan2pi(y, test_frozen_signed(1));
+}
+
+static void test_bits(void)
+{
+    test_frozen("sincospi", test_both, test_frozen_signed, UINT64_C(0x4686085e76a8117e));
+    test_frozen("log", buffon_priv_log, test_frozen_unit, UINT64_C(0x25f78a12fd9b7fb9));
+    test_frozen("log1p", buffon_priv_log1p, test_frozen_signed, UINT64_C(0x1cd0f773f4e7a041));
+    test_frozen("exp", buffon_priv_exp, test_frozen_signed, UINT64_C(0xa72a788cc39d5e46));
+    test_frozen("expm1", buffon_priv_expm1, test_frozen_signed, UINT64_C(0xa438af50310d0e03));
+    test_frozen("atan2pi", test_angle, test_frozen_signed, UINT64_C(0xdb8dbedb8801d7e6));
+    test_frozen("normal_quantile", buffon_priv_normal_quantile, test_frozen_unit, UINT64_C(0x62cf1e753740baae));
+}
+
+/* Along u the normal quantile never falls by more than rounding. */
+static void test_monotone(void)
+{
+    static const double seams[] = {0x1p-1060, 0x1.e8a12e5bf4d3bp-37 /* exp(-25) */, 0.075, 0.3, 0.925,
+                                   0.99999};
+    int wrong = 0, i, j;
+    for (i = 0; i < 6; i++) {
+        double u = seams[i], last = -INFINITY;
+        for (j = 0; j < 500; j++) {
+            u = nextafter(u, 0);
+        }
+        for (j = 0; j < 1000; j++) {
+            const double x = buffon_priv_normal_quantile(u);
+            wrong += x < last - fabs(last) * 8 * DBL_EPSILON;
+            last = x;
+            u = nextafter(u, 1);
+        }
+    }
+    tap_ok(wrong == 0, "the normal quantile does not fall across its seams");
+}
+
+int main(void)
+{
+    size_t i;
+    if (test_long_double()) {
+        for (i = 0; i < sizeof test_functions / sizeof *test_functions; i++) {
+            test_accuracy(&test_functions[i]);
+        }
+        test_accuracy_angle();
+    } else {
+        tap_note("long double is no wider than double: the ulp checks are left out");
+    }
+    test_half_turns();
+    test_odd();
+    test_specials();
+    test_angles();
+    test_parts();
+    test_monotone();
+    test_bits();
+    return tap_done();
+}

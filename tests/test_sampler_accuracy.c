@@ -1,0 +1,534 @@
+/* The samplers against their formulas in extended precision: the numbers behind `Exact:` in the
+ * headers. Needs a long double of 64 bits or more; elsewhere the checks are skipped.
+ */
+#include <buffon/buffon.h>
+#include <float.h>
+#include <math.h>
+
+#include "../src/box.h"
+#include "../src/circle.h"
+#include "tap.h"
+
+typedef long double wide;
+
+#define WIDE_PI 3.14159265358979323846264338327950288L
+
+enum { DRAWS = 100000 };
+
+static double ulp(wide x)
+{
+    const double a = fabs((double)x);
+    return a < DBL_MIN ? 0x1p-1074 : nextafter(a, INFINITY) - a;
+}
+
+/* The worst error met, in ulp of the true value. */
+typedef struct worst {
+    double ulps;
+} worst;
+
+static void see(worst *w, double x, wide exact)
+{
+    const double error = (double)fabsl(x - exact) / ulp(exact);
+    if (!(error <= w->ulps))
+        w->ulps = error;
+}
+
+static void report(const worst *w, double limit, const char *what)
+{
+    if (!tap_ok(w->ulps <= limit, "%s: within %g ulp", what, limit))
+        tap_note("worst: %.3f", w->ulps);
+    else
+        tap_note("worst %.3f", w->ulps);
+}
+
+/* sin and cos of 2 pi t: the reduction by quarters is exact. */
+static void circle(wide *c, wide *s, double t)
+{
+    const double quarters = floor(4 * t + 0.5), rest = t - 0.25 * quarters;
+    const wide sine = sinl(2 * WIDE_PI * rest), cosine = cosl(2 * WIDE_PI * rest);
+    const int k = (int)quarters & 3;
+    *c = k == 0 ? cosine : k == 1 ? -sine : k == 2 ? -cosine : sine;
+    *s = k == 0 ? sine : k == 1 ? cosine : k == 2 ? -sine : -cosine;
+}
+
+/* Uniforms of the generator's grid, every fourth one drawn towards an end, and the ends themselves. */
+static double grid(buffon_rng *rng, int k)
+{
+    const double u = buffon_rng_next(rng);
+    if (k < 4)
+        return k & 1 ? 1 - 0x1p-53 : 0x1p-53;
+    if (k % 4)
+        return u;
+    const double small = floor(ldexp(u, (int)buffon_rng_below(rng, 52))) + 0.5;
+    return k % 8 ? ldexp(small, -52) : 1 - ldexp(small, -52);
+}
+
+static void grid_pair(double u[2], buffon_rng *rng, int k)
+{
+    u[0] = grid(rng, k);
+    u[1] = grid(rng, k / 2);
+}
+
+/* In [2^-k, 2^(1-k)) with k below `range`. */
+static double scaled(buffon_rng *rng, int range)
+{
+    const int k = (int)buffon_rng_below(rng, (uint64_t)range);
+    return ldexp(1 + buffon_rng_next(rng), -k);
+}
+
+static void test_disks(void)
+{
+    const double radius = 0x1.7p+3;
+    const buffon_density polar = buffon_disk(radius), concentric = buffon_disk_concentric(radius);
+    worst p = {0}, q = {0}, area = {0};
+    buffon_rng rng = buffon_rng_make(1, 22);
+    int inside = 1;
+    for (int k = 0; k < DRAWS; k++) {
+        double u[2], x[2], pdf;
+        wide c, s, r;
+        grid_pair(u, &rng, k);
+        if (buffon_density_sample(x, &pdf, u, 1, &polar) != BUFFON_OK)
+            p.ulps = INFINITY;
+        circle(&c, &s, u[1]);
+        r = sqrtl(u[0]);
+        r = r > CIRCLE_RIM ? (wide)CIRCLE_RIM : r;
+        see(&p, x[0], radius * r * c);
+        see(&p, x[1], radius * r * s);
+        see(&area, pdf, 1 / (WIDE_PI * radius * radius));
+        inside &= x[0] * x[0] + x[1] * x[1] <= radius * radius;
+        if (buffon_density_sample(x, &pdf, u, 1, &concentric) != BUFFON_OK)
+            q.ulps = INFINITY;
+        const double a = 2 * u[0] - 1, b = 2 * u[1] - 1;
+        const wide turn = fabs(a) > fabs(b) ? WIDE_PI / 4 * b / a : WIDE_PI / 4 * a / b;
+        r = fabs(a) > fabs(b) ? a : b;
+        r = r > CIRCLE_RIM ? (wide)CIRCLE_RIM : r < -CIRCLE_RIM ? -(wide)CIRCLE_RIM : r;
+        see(&q, x[0], radius * r * (fabs(a) > fabs(b) ? cosl(turn) : sinl(turn)));
+        see(&q, x[1], radius * r * (fabs(a) > fabs(b) ? sinl(turn) : cosl(turn)));
+        inside &= x[0] * x[0] + x[1] * x[1] <= radius * radius;
+    }
+    report(&p, 4, "disk, polar");
+    report(&q, 4, "disk, concentric");
+    report(&area, 2, "disk, pdf");
+    tap_ok(inside, "no point lies outside the disk");
+}
+
+/* Radii and angles of every kind at the very edge. */
+static void test_rim(void)
+{
+    int inside = 1;
+    buffon_rng rng = buffon_rng_make(2, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        const double radius = 0x1p400 * scaled(&rng, 800);
+        const buffon_density g[2] = {buffon_disk(radius), buffon_disk_concentric(radius)};
+        const uint64_t steps = 1 + 2 * buffon_rng_below(&rng, 8);
+        const double u[2] = {1 - (double)steps * 0x1p-53, buffon_rng_next(&rng)};
+        for (int j = 0; j < 2; j++) {
+            double x[2], pdf;
+            inside &= buffon_density_sample(x, NULL, u, 1, &g[j]) == BUFFON_OK;
+            inside &= x[0] * x[0] + x[1] * x[1] <= radius * radius;
+            inside &= buffon_density_pdf(&pdf, x, 1, &g[j]) == BUFFON_OK && pdf > 0;
+        }
+    }
+    tap_ok(inside, "x^2 + y^2 <= r^2 as computed, at the edge of disks of any size");
+}
+
+static void test_sphere(void)
+{
+    const buffon_density g = buffon_sphere();
+    worst w = {0}, pole = {0};
+    buffon_rng rng = buffon_rng_make(3, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        double u[2], x[3], pdf;
+        wide c, s;
+        grid_pair(u, &rng, k);
+        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK)
+            w.ulps = INFINITY;
+        circle(&c, &s, u[1]);
+        const wide sine = 2 * sqrtl((wide)u[0] * (1 - (wide)u[0]));
+        see(&w, x[0], sine * c);
+        see(&w, x[1], sine * s);
+        see(&pole, x[2], 1 - 2 * (wide)u[0]);
+        see(&pole, pdf, 1 / (4 * WIDE_PI));
+    }
+    report(&w, 3, "sphere, x and y");
+    report(&pole, 0.5, "sphere, z and pdf");
+}
+
+/* A cap of height h about +z: x, y and depth at every size, from the h and 2 - h that it was given. */
+static void see_cap(worst *across, worst *height, worst *area, const buffon_density *g, wide h,
+                    buffon_rng *rng, int k)
+{
+    double u[2], x[3], pdf;
+    wide c, s;
+    grid_pair(u, rng, k);
+    if (buffon_density_sample(x, &pdf, u, 1, g) != BUFFON_OK)
+        across->ulps = INFINITY;
+    circle(&c, &s, u[1]);
+    const wide sine = sqrtl(h * u[0] * ((2 - h) + h * (1 - (wide)u[0])));
+    see(across, x[0], sine * c);
+    see(across, x[1], sine * s);
+    height->ulps = fmax(height->ulps, fabs((double)(x[2] - (1 - h * u[0]))) / DBL_EPSILON);
+    see(area, pdf, 1 / (2 * WIDE_PI * h));
+}
+
+static void test_caps(void)
+{
+    const double up[3] = {0, 0, 1};
+    worst across = {0}, height = {0}, area = {0}, angle = {0};
+    buffon_rng rng = buffon_rng_make(4, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        /* From 2^-1020 to 2, and as near to 2. */
+        const double h = k % 3 ? scaled(&rng, 1020) : 2 - 0.25 * scaled(&rng, 50);
+        const buffon_density g = buffon_cap_height(h, up);
+        see_cap(&across, &height, &area, &g, h, &rng, k);
+        const double cut = k % 2 ? 2 * buffon_rng_next(&rng) - 1 : 0.5 * scaled(&rng, 50) - 1;
+        const buffon_density plane = buffon_cap(cut);
+        see_cap(&across, &height, &area, &plane, 1 - (wide)cut, &rng, k);
+        const double theta = k % 4 ? 3.1415926535897931 * buffon_rng_next(&rng)
+                                   : ldexp(1 + buffon_rng_next(&rng), -(k % 500));
+        const buffon_density cone = buffon_cap_angle(theta, up);
+        const double u[2] = {0.25, 0.25};
+        double x[3], pdf;
+        if (buffon_density_sample(x, &pdf, u, 1, &cone) != BUFFON_OK)
+            angle.ulps = INFINITY;
+        const wide sine = sinl((wide)theta / 2);
+        see(&angle, pdf, 1 / (4 * WIDE_PI * sine * sine));
+    }
+    report(&across, 4, "cap about +z, x and y, h from 2^-1020 to 2");
+    report(&height, 1, "cap about +z, z in ulp of 1");
+    report(&area, 2, "cap, pdf");
+    report(&angle, 6, "cap of an angle from 2^-500 to pi, pdf");
+}
+
+/* About any axis: distance from the turned true point, in the same frame. */
+static void test_turned(void)
+{
+    double error = 0, length = 0, square = 0;
+    int inside = 1;
+    buffon_rng rng = buffon_rng_make(5, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        double axis[3], x[3], pdf, again;
+        for (int j = 0; j < 3; j++)
+            axis[j] = (2 * buffon_rng_next(&rng) - 1) * ldexp(1, j == k % 3 ? 0 : -(k % 60));
+        if (k % 2)
+            axis[2] = -fabs(axis[2]);
+        const double h = ldexp(1 + buffon_rng_next(&rng), -(k % 100));
+        const buffon_density g[2] = {buffon_cap_height(h, axis), buffon_hemisphere_cosine_about(axis)};
+        double u[2];
+        grid_pair(u, &rng, k);
+        for (int m = 0; m < 2; m++) {
+            inside &= buffon_density_sample(x, &pdf, u, 1, &g[m]) == BUFFON_OK;
+            inside &= buffon_density_pdf(&again, x, 1, &g[m]) == BUFFON_OK && again > 0;
+            error = fmax(error, m ? fabs(pdf - again) : 0);
+            const wide r2 = (wide)x[0] * x[0] + (wide)x[1] * x[1] + (wide)x[2] * x[2];
+            length = fmax(length, fabs((double)(r2 - 1)));
+            if (m)
+                continue;
+            /* The cosine with the axis itself, from the chord. */
+            const wide n = sqrtl((wide)axis[0] * axis[0] + (wide)axis[1] * axis[1] +
+                                 (wide)axis[2] * axis[2]);
+            const wide z = (x[0] * (wide)axis[0] + x[1] * (wide)axis[1] + x[2] * (wide)axis[2]) / n;
+            square = fmax(square, fabs((double)(z - (1 - (wide)h * u[0]))));
+        }
+    }
+    tap_ok(inside, "turned points lie in their caps and hemispheres, with a pdf");
+    tap_ok(length <= 0x1p-48, "turned points: |x| within 2^-49 of 1");
+    tap_note("| |x|^2 - 1 | up to %.3g", length);
+    tap_ok(square <= 0x1p-50, "turned caps: height within 2^-50");
+    tap_note("up to %.3g", square);
+    tap_ok(error <= 0x1p-51, "turned cosine hemisphere: pdf within 2^-51");
+    tap_note("up to %.3g", error);
+}
+
+static void test_frames(void)
+{
+    double error = 0;
+    buffon_rng rng = buffon_rng_make(6, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        double axis[3];
+        for (int j = 0; j < 3; j++)
+            axis[j] = (2 * buffon_rng_next(&rng) - 1) * ldexp(1, j == 2 ? 0 : -(k % 60));
+        const buffon_density g = buffon_hemisphere_about(axis);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b <= a; b++) {
+                wide dot = 0;
+                for (int j = 0; j < 3; j++)
+                    dot += (wide)g.param[3 * a + j] * g.param[3 * b + j];
+                error = fmax(error, fabs((double)(dot - (a == b))));
+            }
+    }
+    tap_ok(error <= 0x1p-50, "frames are orthonormal within 2^-50");
+    tap_note("up to %.3g", error);
+}
+
+static void test_cosine(void)
+{
+    const buffon_density g = buffon_hemisphere_cosine();
+    worst w = {0};
+    double least = 1;
+    buffon_rng rng = buffon_rng_make(7, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        double u[2], x[3], pdf;
+        grid_pair(u, &rng, k);
+        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK)
+            w.ulps = INFINITY;
+        const double a = 2 * u[0] - 1, b = 2 * u[1] - 1, big = fabs(a) > fabs(b) ? u[0] : u[1];
+        const wide z = 2 * sqrtl((wide)big * (1 - (wide)big));
+        see(&w, x[2], z);
+        see(&w, pdf, z / WIDE_PI);
+        least = fmin(least, pdf);
+    }
+    report(&w, 3, "cosine hemisphere, z and pdf");
+    tap_ok(least > 0x1p-30, "a cosine sample never has a pdf of zero");
+}
+
+/* Spheres from afar and from near. */
+static void test_seen(void)
+{
+    worst w = {0};
+    buffon_rng rng = buffon_rng_make(8, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        double from[3], centre[3], x[3], pdf;
+        const double u[2] = {0.5, 0.5}, radius = ldexp(1 + buffon_rng_next(&rng), -(k % 400));
+        wide d2 = 0;
+        for (int j = 0; j < 3; j++) {
+            from[j] = k % 2 ? 0 : buffon_rng_next(&rng);
+            centre[j] = 3 + buffon_rng_next(&rng);
+            d2 += ((wide)centre[j] - from[j]) * ((wide)centre[j] - from[j]);
+        }
+        const buffon_density g = buffon_cap_of_sphere(from, centre, radius);
+        const wide s2 = (wide)radius * radius / d2;
+        if (s2 > 1 / 1.21L)
+            continue;
+        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK)
+            w.ulps = INFINITY;
+        see(&w, pdf, (1 + sqrtl(1 - s2)) / (2 * WIDE_PI * s2));
+    }
+    report(&w, 8, "sphere from 1.1 to 2^400 radii off, pdf");
+}
+
+static void test_boxes(void)
+{
+    double error = 0;
+    worst origin = {0}, volume = {0};
+    buffon_rng rng = buffon_rng_make(9, 22);
+    for (int k = 0; k < DRAWS; k++) {
+        const double a = (2 * buffon_rng_next(&rng) - 1) * ldexp(1, k % 40 - 20);
+        const double b = (2 * buffon_rng_next(&rng) - 1) * ldexp(1, k % 37 - 20);
+        const double lo = fmin(a, b), hi = fmax(a, b), u = grid(&rng, k);
+        const wide exact = lo + u * ((wide)hi - lo);
+        const double x = buffon_segment_sample(u, lo, hi);
+        error = fmax(error, fabs((double)(x - exact)) / fmax(fabs(lo), fabs(hi)));
+        see(&origin, buffon_segment_sample(u, 0, fabs(a)), (wide)u * fabs(a));
+    }
+    tap_ok(error <= 0x1p-51, "box: within 2^-51 of the larger bound");
+    tap_note("up to %.3g of it", error);
+    report(&origin, 1, "box from 0");
+    for (int k = 0; k < 1000; k++) {
+        double lo[12], hi[12], pdf, m;
+        const double x[12] = {0};
+        const size_t dim = 1 + (size_t)k % 12;
+        wide exact = 1;
+        int e;
+        for (size_t j = 0; j < dim; j++) {
+            lo[j] = -0x1p50 * scaled(&rng, 100);
+            hi[j] = buffon_rng_next(&rng);
+            exact *= (wide)hi[j] - lo[j];
+        }
+        const buffon_density g = buffon_box(lo, hi, dim);
+        if (buffon_density_pdf(&pdf, x, 1, &g) != BUFFON_OK)
+            volume.ulps = INFINITY;
+        volume.ulps = fmax(volume.ulps, fabs((double)(pdf * exact - 1)) / DBL_EPSILON /
+                                            (double)(dim + 1));
+        buffon_priv_box_volume(&m, &e, lo, hi, dim);
+        volume.ulps = fmax(volume.ulps, fabs((double)(ldexpl(m, e) / exact - 1)) / DBL_EPSILON /
+                                            (double)dim);
+    }
+    report(&volume, 1, "box of dim coordinates, pdf / (dim + 1)");
+}
+
+/* CDFs of every temper. F crosses u, as computed, within 4 ulp of x. */
+static int calls;
+
+static double cauchy_cdf(double x, void *scale)
+{
+    calls++;
+    return x < 0 ? atan(-*(double *)scale / x) / 3.14159265358979323846
+                 : 0.5 + atan(x / *(double *)scale) / 3.14159265358979323846;
+}
+
+static double cauchy_pdf(double x, void *scale)
+{
+    const double c = *(double *)scale;
+    return 1 / (3.14159265358979323846 * c * (1 + x / c * (x / c)));
+}
+
+static double normal_cdf(double x, void *ctx)
+{
+    (void)ctx;
+    calls++;
+    return 0.5 * erfc(-x * 0.70710678118654752440);
+}
+
+static double normal_pdf(double x, void *ctx)
+{
+    (void)ctx;
+    return 0.39894228040143267794 * exp(-0.5 * x * x);
+}
+
+static double exponential_cdf(double x, void *ctx)
+{
+    (void)ctx;
+    calls++;
+    return -expm1(-x);
+}
+
+static double exponential_pdf(double x, void *ctx)
+{
+    (void)ctx;
+    return exp(-x);
+}
+
+static double root_cdf(double x, void *ctx)
+{
+    (void)ctx;
+    calls++;
+    return sqrt(x);
+}
+
+static double root_pdf(double x, void *ctx)
+{
+    (void)ctx;
+    return 0.5 / sqrt(x);
+}
+
+static double power_cdf(double x, void *ctx)
+{
+    (void)ctx;
+    calls++;
+    return pow(x, 20);
+}
+
+static double power_pdf(double x, void *ctx)
+{
+    (void)ctx;
+    return 20 * pow(x, 19);
+}
+
+/* Two plateaus of density with nothing between 1 and 9. */
+static double gap_cdf(double x, void *ctx)
+{
+    (void)ctx;
+    calls++;
+    return x < 1 ? 0.5 * x : x < 9 ? 0.5 : 0.5 + 0.5 * (x - 9);
+}
+
+static double gap_pdf(double x, void *ctx)
+{
+    (void)ctx;
+    return x < 1 || x > 9 ? 0.5 : 0;
+}
+
+/* A pdf that lies: the CDF alone must lead to the root. */
+static double lying_pdf(double x, void *ctx)
+{
+    (void)ctx;
+    return 1e12 + x;
+}
+
+static int crosses(const buffon_inversion *how, double x, double u)
+{
+    const double far = 0x1p-50 * fabs(x);
+    return how->cdf(x - far, how->ctx) <= u && how->cdf(x + far, how->ctx) >= u;
+}
+
+static void test_newton(void)
+{
+    double tiny = 1e-200, one = 1, huge = 1e200;
+    const struct {
+        const char *name;
+        buffon_inversion how;
+    } law[] = {
+        {"Cauchy", {.cdf = cauchy_cdf, .pdf = cauchy_pdf, .ctx = &one}},
+        {"Cauchy of scale 1e-200", {.cdf = cauchy_cdf, .pdf = cauchy_pdf, .ctx = &tiny}},
+        {"Cauchy of scale 1e200", {.cdf = cauchy_cdf, .pdf = cauchy_pdf, .ctx = &huge}},
+        {"normal", {.cdf = normal_cdf, .pdf = normal_pdf}},
+        {"normal on a finite support", {.cdf = normal_cdf, .pdf = normal_pdf, .lo = -1e5, .hi = 1e6}},
+        {"exponential", {.cdf = exponential_cdf, .pdf = exponential_pdf, .lo = 0, .hi = INFINITY}},
+        {"infinite pdf at 0", {.cdf = root_cdf, .pdf = root_pdf, .lo = 0, .hi = 1}},
+        {"power of 20", {.cdf = power_cdf, .pdf = power_pdf, .lo = 0, .hi = 1}},
+        {"gap", {.cdf = gap_cdf, .pdf = gap_pdf, .lo = 0, .hi = 10}},
+        {"normal with a false pdf", {.cdf = normal_cdf, .pdf = lying_pdf}},
+    };
+    buffon_rng rng = buffon_rng_make(10, 22);
+    for (size_t k = 0; k < sizeof law / sizeof *law; k++) {
+        int good = 1, most = 0, total = 0;
+        for (int i = 0; i < 4000; i++) {
+            const double u = i == 4 ? 0.5 : grid(&rng, i);
+            double x;
+            calls = 0;
+            good &= buffon_inverse_sample(&x, NULL, u, &law[k].how) == BUFFON_OK;
+            most = calls > most ? calls : most;
+            total += calls;
+            good &= crosses(&law[k].how, x, u);
+        }
+        tap_ok(good && most <= 320, "inverse CDF, %s: F crosses u within 4 ulp of x", law[k].name);
+        tap_note("%.1f calls of the CDF on average, %d at most", total / 4000.0, most);
+    }
+}
+
+static void test_table(void)
+{
+    static double knot[1001], F[1001];
+    double error = 0, back = 0;
+    buffon_rng rng = buffon_rng_make(11, 22);
+    knot[0] = F[0] = -3;
+    for (int k = 1; k <= 1000; k++) {
+        knot[k] = knot[k - 1] + ldexp(buffon_rng_next(&rng), -(k % 20));
+        F[k] = F[k - 1] + ldexp(buffon_rng_next(&rng), -(k % 17));
+    }
+    const buffon_inversion how = {.x = knot, .F = F, .count = 1001};
+    const buffon_density g = buffon_inverse(&how);
+    for (int i = 0; i < DRAWS; i++) {
+        const double u = grid(&rng, i);
+        double x, v;
+        int k = 0;
+        if (buffon_density_sample(&x, NULL, &u, 1, &g) != BUFFON_OK ||
+            buffon_density_invert(&v, &x, 1, &g) != BUFFON_OK)
+            error = INFINITY;
+        for (int step = 512; step; step /= 2)
+            k += k + step < 1000 && knot[k + step] <= x ? step : 0;
+        const wide part = ((wide)x - knot[k]) / ((wide)knot[k + 1] - knot[k]);
+        const wide level = (((wide)F[k] - F[0]) + part * ((wide)F[k + 1] - F[k])) /
+                           ((wide)F[1000] - F[0]);
+        /* What an ulp of x is worth, where the pdf is steep. */
+        const double grain = (double)((F[k + 1] - F[k]) / (knot[k + 1] - knot[k]) /
+                                      (F[1000] - F[0])) * ulp(x);
+        error = fmax(error, fabs((double)(level - u)) / (DBL_EPSILON + grain));
+        back = fmax(back, fabs(u - v) / (DBL_EPSILON + grain));
+    }
+    tap_ok(error <= 2, "table: F(x) is u within 2 ulp of 1 and of x");
+    tap_note("up to %.3f", error);
+    tap_ok(back <= 4, "table: back to u within 4 of them");
+    tap_note("up to %.3f", back);
+}
+
+int main(void)
+{
+#if LDBL_MANT_DIG < 64
+    printf("1..0 # SKIP long double is no wider than double here\n");
+    return 0;
+#endif
+    test_disks();
+    test_rim();
+    test_sphere();
+    test_caps();
+    test_turned();
+    test_frames();
+    test_cosine();
+    test_seen();
+    test_boxes();
+    test_newton();
+    test_table();
+    return tap_done();
+}
