@@ -108,27 +108,32 @@ $(shared): $(objects)
 
 # ---- programs -----------------------------------------------------------------------------------
 
-# $(call program,flags,sources and libraries): compiles and links one.
+# $(call program,flags,libraries): compiles and links one.
 define program
 @mkdir -p $(@D)
 @echo "  CC    $@"
-@$(compile) -MF $@.d -MT $@ $(1) $(LDFLAGS) -o $@ $(2) $(libraries)
+@$(compile) -MF $@.d -MT $@ $(1) $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(2) $(libraries)
 endef
 
+# These tests stand between the library and the system.
+wrap = $(1:%=-Wl,--wrap=%)
+wrap_test_faults = $(call wrap,malloc calloc free pthread_create)
+wrap_test_progress = $(call wrap,clock_gettime)
+
 $(BUILD)/tests/%: tests/%.c $(BUILD)/verify/libbuffon.a
-	$(call program,-Isrc,$^)
+	$(call program,-Isrc $(wrap_$*))
 
 # These use what is installed, not the private parts, and measure it or print its bits.
 $(BUILD)/tests/bits: tests/bits.c $(static)
-	$(call program,,$^)
+	$(call program)
 $(BUILD)/tests/battery: tests/battery.c $(static)
-	$(call program,,$^)
+	$(call program)
 
 $(BUILD)/bench/%: tests/bench/%.c $(static)
-	$(call program,$(if $(gsl),-DBENCH_GSL $(gsl_cflags)),$^ $(gsl))
+	$(call program,$(if $(gsl),-DBENCH_GSL $(gsl_cflags)),$(gsl))
 
 $(BUILD)/examples/%: examples/%.c $(static)
-	$(call program,,$^)
+	$(call program)
 
 define example_tree
 $(BUILD)/examples/$(1): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard examples/$(1)/*.c))

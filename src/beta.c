@@ -1,23 +1,26 @@
-/* Quantiles of the beta distribution, good to 1e-12 for parameters from 0.01 up and any tails. Below
- * that the quantile is ill-conditioned: an error of 1e-16 in p is one of 1e-16 / a in x.
+/* Quantiles of the beta distribution, good to 1e-12 for parameters from 0.01 up and any tails.
+ * Below that the quantile is ill-conditioned: an error of 1e-16 in p is one of 1e-16 / a in x.
  *
- * The variable is mu = log((x / y) / (x0 / y0)) with y = 1 - x and the mean x0 = a / (a + b), y0: the
- * log odds against those of the mean. In it nothing of the size of a or b cancels, x and y have the
- * same rights, and both tails are log-concave, so that Newton's steps on the log of a tail converge
- * from anywhere. The density of mu is
+ * The variable is mu = log((x / y) / (x0 / y0)) with y = 1 - x, the mean x0 = a / (a + b) and
+ * y0 = 1 - x0: the log odds against those of the mean. In it nothing of the size of a or b cancels,
+ * x and y have the same rights, and both tails are log-concave, so that Newton's steps on the log
+ * of a tail converge from anywhere. The density of mu is
  *
  *     D = x^a y^b / B(a, b) = sqrt(a y0 / 2 pi) exp(d(a + b) - d(a) - d(b) - deviance),
  *     deviance = a log(x0 / x) + b log(y0 / y) >= 0,
  *
  * with d(z) the error of Stirling's formula, as C. Loader (2000), Fast and accurate computation of
  * binomial probabilities, does it for the binomial. A tail is D times a continued fraction.
- * Rejected: log-gammas (they lose log10(a) digits) and bisection on the CDF (it loses the far tails).
+ * Rejected: log-gammas (they lose log10(a) digits), bisection on the CDF (it loses the far tails).
  */
-#include "elementary.h"
-#include "quantile.h"
+#include "guard.h"
+
+#include <math.h>
 
 #include <buffon/interval.h>
-#include <math.h>
+
+#include "elementary.h"
+#include "quantile.h"
 
 #define BETA_LEAST 1e-300 /* beyond these sums and quotients of a and b leave the doubles */
 #define BETA_MOST 1e300
@@ -38,8 +41,8 @@ typedef struct beta_place {
     double density; /* log D */
 } beta_place;
 
-/* log Gamma(z) - ((z - 1/2) log z - z + log(2 pi) / 2) for z > 0: Stirling's series from 12 up, where
- * six terms leave 2e-16; below, d(z) = d(z + 1) + (z + 1/2) log(1 + 1/z) - 1. */
+/* log Gamma(z) - ((z - 1/2) log z - z + log(2 pi) / 2) for z > 0: Stirling's series from 12 up,
+ * where six terms leave 1e-16; below, d(z) = d(z + 1) + (z + 1/2) log(1 + 1/z) - 1. */
 static double beta_stirling(double z)
 {
     double sum = 0, r, w;
@@ -101,10 +104,10 @@ static beta_place beta_place_make(const beta_law *law, double mu)
     return at;
 }
 
-/* P(X <= x) / D by the continued fraction of A. DiDonato, A. Morris (1992), Algorithm 708: the inverse
- * of beta_0 + alpha_1 / (beta_1 + alpha_2 / (beta_2 + ...)), with lead = a y - b x >= 0. It is the
- * even part of the classical fraction. From one standard deviation out some hundred steps do, for
- * any a and b. The convergents are q / p, scaled so that p = 1. */
+/* P(X <= x) / D by the continued fraction of A. DiDonato, A. Morris (1992), Algorithm 708: the
+ * inverse of beta_0 + alpha_1 / (beta_1 + alpha_2 / (beta_2 + ...)), with lead = a y - b x >= 0. It
+ * is the even part of the classical fraction. From one standard deviation out some hundred steps
+ * do, for any a and b. The convergents are q / p, scaled so that p = 1. */
 static double beta_fraction(double a, double b, double x, double y, double lead)
 {
     double q0 = 0, p0 = 1, q1, p1 = a / (a + 1) * (lead + 1);
@@ -133,8 +136,8 @@ typedef struct beta_tail {
     double hazard;
 } beta_tail;
 
-/* Left of the mean the fraction gives the tail; right of it, the other one, which is then not near 1
- * but for tiny a. */
+/* Left of the mean the fraction gives the tail; right of it, the other tail, which is not near 1
+ * there but for tiny a. */
 static beta_tail beta_tail_fraction(const beta_law *law, const beta_place *at)
 {
     const double density = buffon_priv_exp(at->density);
@@ -177,7 +180,7 @@ static beta_tail beta_tail_near(const beta_law *law, const beta_place *at, doubl
 }
 
 /* Where to start on the way to the lower tail p <= 1/2. Both parameters above 1: M. Abramowitz,
- * I. Stegun (1964), 26.5.22. Otherwise P(X <= x) = x^a / (a B), or the mean if that leads beyond. */
+ * I. Stegun (1964), 26.5.22. Otherwise P(X <= x) = x^a / (a B), or the mean if that gives x > 1. */
 static double beta_guess(const beta_law *law, double p)
 {
     const double a = law->a, b = law->b;
@@ -189,17 +192,17 @@ static double beta_guess(const beta_law *law, double p)
         const double skew = (rb - ra) * (lambda + 5.0 / 6 - 2 / (3 * h));
         return -2 * (z * sqrt(h + lambda) / h - skew);
     }
-    log_x = buffon_priv_log(law->x0) +
-            (buffon_priv_log(p) + buffon_priv_log(a) + b * buffon_priv_log(law->y0) - law->peak) / a;
+    log_x = buffon_priv_log(p) + buffon_priv_log(a) + b * buffon_priv_log(law->y0) - law->peak;
+    log_x = buffon_priv_log(law->x0) + log_x / a;
     if (log_x >= 0) {
         return 0;
     }
     return log_x - buffon_priv_log(-buffon_priv_expm1(log_x)) - buffon_priv_log(a / b);
 }
 
-/* Halley's steps to log P(X <= x) = log p. f''/f' = slope - hazard is negative: a tail is log-concave.
- * The step converges cubically, so the last one need not be small. Its denominator is kept from
- * stretching the step more than twofold where it sets out from far. */
+/* Halley's steps to f = log P(X <= x) - log p = 0, where f' = hazard and f'' / f' = slope - hazard
+ * is negative: a tail is log-concave. They converge cubically, so the last one need not be small.
+ * The denominator is kept from stretching a step more than twofold where it sets out from far. */
 static double beta_solve(const beta_law *law, double p, double mu)
 {
     const double log_p = buffon_priv_log(p);

@@ -85,8 +85,8 @@ static int cap_invert(double *u, const double *x, size_t n, const buffon_density
 static const buffon_density_ops cap_ops = {
     .sample = cap_draw, .pdf = cap_pdf, .invert = cap_invert, .name = "buffon.cap"};
 
-/* About +z the points of even the smallest cap have all their digits; about another axis the doubles
- * near it are 2^-53 apart, and membership must allow for that. */
+/* About +z the points of even the smallest cap have all their digits; about another axis the
+ * doubles near it are 2^-53 apart, and membership must allow for that. */
 static buffon_density cap_make(double h, double rest, const double axis[3])
 {
     buffon_density g = {.uniforms = 2, .dim = 3, .ops = &cap_ops};

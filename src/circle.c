@@ -18,9 +18,10 @@ double buffon_priv_circle_invert(double x, double y)
     return density_open(t < 0 ? t + 1 : t);
 }
 
-/* With the larger of |a|, |b| as the radius the angle from its axis is (pi/4) small / big, an eighth
- * of a turn at most. The branches of the four triangles become two choices: which is big, and which
- * of sine and cosine goes with which coordinate. The rows of the output hold the angles meanwhile. */
+/* With the larger of |a|, |b| as the radius the angle from its axis is (pi/4) small / big, an
+ * eighth of a turn at most. The branches of the four triangles become two choices: which is big,
+ * and which of sine and cosine goes with which coordinate. The rows of the output hold the angles
+ * meanwhile. */
 void buffon_priv_concentric(double *restrict x, double *restrict y, const double *restrict u1,
                             const double *restrict u2, size_t n)
 {

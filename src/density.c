@@ -33,8 +33,8 @@ static int density_fits(size_t n, const buffon_density *g)
     return n <= most && (!n || !g || (g->dim <= most / n && g->uniforms <= most / n));
 }
 
-/* What a refused call leaves. Where n itself is senseless nothing can be said of the arrays, and they
- * are left alone. */
+/* What a refused call leaves. Where n itself is senseless nothing can be said of the arrays, and
+ * they are left alone. */
 static void density_spoil(double *x, size_t n, size_t width, const buffon_density *g)
 {
     if (x && density_fits(n, g))
@@ -134,12 +134,12 @@ uint64_t buffon_priv_density_identity(uint64_t mix, const buffon_density *g)
 }
 
 /* A product keeps its parts as data[0] up to, not including, data[1]. As batches are
- * coordinate-major, the coordinates of a part are one stretch of the whole, so its operations run in
- * place. Only the pdf of a part needs room of its own: for that its points are copied in tiles. A
- * product within a product is walked, so one tile serves all levels. */
+ * coordinate-major, the coordinates of a part are one stretch of the whole, so its operations run
+ * in place. Only the pdf of a part needs room of its own: for that its points are copied in tiles.
+ * A product within a product is walked, so one tile serves all levels. */
 #define PRODUCT_TILE 4096
 
-/* out := out * g of a part, or out + log g, at points given by uniforms (`sample`) or as they are. */
+/* out := out * g of a part, or out + log g, at points given by their uniforms or as they are. */
 typedef enum product_job { PRODUCT_SAMPLE, PRODUCT_PDF, PRODUCT_LOG_PDF } product_job;
 
 /* One part at all points: tiles of its columns, each with its pdf behind them. */

@@ -5,9 +5,11 @@
  * The polynomials interpolate the named function at Chebyshev nodes of the reduced interval
  * (near-minimax), in 60 digits, and were then rounded; their error is stated beside each.
  */
-#include "elementary.h"
+#include "guard.h"
 
 #include <math.h>
+
+#include "elementary.h"
 
 #define ELEMENTARY_SHIFT 0x1.8p52 /* added, it rounds to a whole number in the low bits */
 #define ELEMENTARY_INF buffon_priv_from_bits(UINT64_C(0x7ff0000000000000))
@@ -33,8 +35,8 @@ static inline double elementary_scale(double y, int k)
 
 /* ---- sine and cosine ---------------------------------------------------------------------- */
 
-/* sin(pi r) for |r| <= 1/4: pi r + r z S(z) with z = r^2, S to 6.4e-16. The product pi r would round
- * at full size; 4 r does not round, and the rest is small. */
+/* sin(pi r) for |r| <= 1/4: pi r + r z S(z) with z = r^2, S to 6.4e-16. The product pi r would
+ * round at full size; 4 r does not round, and the rest is small. */
 static inline double elementary_sin_core(double r)
 {
     const double z = r * r;
@@ -61,8 +63,8 @@ static inline double elementary_cos_core(double r)
     return 1 - z * c;
 }
 
-/* x = n/2 + r with |r| <= 1/4, all of it exact; n mod 4 turns and reflects. The first step takes away
- * a multiple of 2^20, so that the second sees a small number; from 2^53 on every x is even. */
+/* x = n/2 + r with |r| <= 1/4, all of it exact; n mod 4 turns and reflects. The first step takes
+ * away a multiple of 2^20, so that the second sees a small number; from 2^53 on every x is even. */
 void buffon_priv_sincospi(double *s, double *c, double x)
 {
     const double magnitude = buffon_priv_abs(x);

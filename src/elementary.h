@@ -2,7 +2,7 @@
  *
  * Only + - * / sqrt, comparisons, integer operations and exact conversions, in round to nearest and
  * without contraction, so that a vectorised form can repeat each step bit for bit. No call of libm
- * but sqrt. Every statement of accuracy is checked, and the bits are frozen, in tests/test_elementary.c.
+ * but sqrt. tests/test_elementary.c checks every statement of accuracy and freezes the bits.
  */
 #ifndef BUFFON_SRC_ELEMENTARY_H
 #define BUFFON_SRC_ELEMENTARY_H
@@ -50,7 +50,7 @@ void buffon_priv_sincospi(double *s, double *c, double x);
 double buffon_priv_sinpi(double x);
 double buffon_priv_cospi(double x);
 
-/* The natural logarithm, within 0.9 ulp, subnormals included. log(+-0) is -infinity; NaN below 0. */
+/* The natural logarithm, within 0.9 ulp, of subnormals too. log(+-0) is -infinity; NaN below 0. */
 double buffon_priv_log(double x);
 
 /* log(1 + x), within 0.9 ulp. log1p(-1) is -infinity; NaN below -1. */
@@ -73,7 +73,7 @@ double buffon_priv_atan2pi(double y, double x);
 /* x 2^k for any k, rounded once. */
 double buffon_priv_ldexp(double x, int k);
 
-/* f in [1/2, 1) in magnitude and k with x = f 2^k; 0, infinity and NaN give themselves and k = 0. */
+/* f in [1/2, 1) in magnitude and k with x = f 2^k; 0, infinity, NaN give themselves and k = 0. */
 double buffon_priv_frexp(int *k, double x);
 
 /* The next double above, or below. The infinity of that side and NaN give themselves. */

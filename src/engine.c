@@ -469,11 +469,22 @@ static double engine_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Points that this run, or this part of it, is to have in the end. */
 static uint64_t engine_total(const engine *e)
 {
+    const buffon_priv_record *record = e->record;
+    const uint64_t block = e->shape.block;
     uint64_t total = 0;
-    for (size_t c = 0; c < buffon_priv_shape_cells(&e->shape); c++)
-        total += e->record->target[c];
+    for (size_t c = 0; c < buffon_priv_shape_cells(&e->shape); c++) {
+        const uint64_t blocks = record->target[c] / block, rest = record->target[c] % block;
+        if (e->run.parts == 0) {
+            total += record->target[c];
+            continue;
+        }
+        total += buffon_priv_record_owned(record, e->run.part, c, blocks) * block;
+        if (buffon_priv_record_owner(record, c, blocks) == e->run.part)
+            total += rest;
+    }
     return total;
 }
 

@@ -1,6 +1,8 @@
-#include <buffon/interval.h>
+#include "guard.h"
 
 #include <math.h>
+
+#include <buffon/interval.h>
 
 #include "elementary.h"
 #include "quantile.h"
@@ -65,8 +67,8 @@ buffon_status buffon_interval_clopper_pearson(double *lo, double *hi, uint64_t h
     return BUFFON_OK;
 }
 
-/* The roots of (n + z^2) p^2 - (2 k + z^2) p + k^2 / n = 0. The upper one is a sum of positive terms,
- * the lower one follows from the product of the two; so neither cancels. */
+/* The roots of (n + z^2) p^2 - (2 k + z^2) p + k^2 / n = 0. The upper one is a sum of positive
+ * terms, the lower one follows from the product of the two; so neither cancels. */
 buffon_status buffon_interval_wilson(double *lo, double *hi, uint64_t hits, uint64_t n,
                                      double confidence)
 {

@@ -10,10 +10,11 @@
 
 /* Newton's method inside a bracket F(a) < u <= F(b).
  *
- * A Newton step is taken while it stays in the bracket and is at most half the step before; else the
- * bracket is halved, by value and in turn by the order of the doubles themselves, which takes 64
- * halvings from any bracket at any scale. An infinite end is approached in steps that square. An end
- * of the support counts as F = 0 or 1 until the bracket closes on it, and is then put to the test. */
+ * A Newton step is taken while it stays in the bracket and is at most half the step before; else
+ * the bracket is halved, by value and in turn by the order of the doubles themselves, which takes
+ * 64 halvings from any bracket at any scale. An infinite end is approached in steps that square. An
+ * end of the support counts as F = 0 or 1 until the bracket closes on it, and is then put to the
+ * test. */
 
 /* Newton steps and halvings by value end here; then come halvings by order alone. */
 #define INVERSION_STEPS 96

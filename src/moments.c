@@ -123,6 +123,12 @@ static void moments_centre(buffon_priv_moments *out, const double *y, size_t n, 
         moments_about(out, y, n, out->m + shift, scale);
 }
 
+/* 2^-e. */
+static double moments_factor(const buffon_priv_moments *m)
+{
+    return m->e == 0 ? 1.0 : m->e > 0 ? 0x1p-600 : 0x1p600;
+}
+
 size_t buffon_priv_moments_block(buffon_priv_moments *out, const double *y, size_t n)
 {
     *out = (buffon_priv_moments){.n = n};
@@ -137,24 +143,14 @@ size_t buffon_priv_moments_block(buffon_priv_moments *out, const double *y, size
     }
     double min = out->min + 0.0, max = out->max + 0.0; /* -0 becomes 0 */
     double largest = moments_greater(-min, max);
-    if (min == max) {
-        out->m = min;
-        out->r = out->q = 0.0;
-    } else if (largest > MOMENTS_LARGE) {
-        out->e = MOMENTS_SCALE;
-        moments_centre(out, y, n, 0x1p-600);
-    } else if (largest < MOMENTS_SMALL) {
-        out->e = -MOMENTS_SCALE;
-        moments_centre(out, y, n, 0x1p600);
+    /* Of equal values, whatever their size, m is the first and r = q = 0 already. */
+    if (min < max && (largest > MOMENTS_LARGE || largest < MOMENTS_SMALL)) {
+        out->e = largest > MOMENTS_LARGE ? MOMENTS_SCALE : -MOMENTS_SCALE;
+        moments_centre(out, y, n, moments_factor(out));
     }
     out->min = min;
     out->max = max;
     return n;
-}
-
-static double moments_factor(const buffon_priv_moments *m)
-{
-    return m->e == 0 ? 1.0 : m->e > 0 ? 0x1p-600 : 0x1p600;
 }
 
 /* total += sum (a - ma)(b - mb) of one chunk. */

@@ -1,9 +1,10 @@
 /* Quantiles of Student's t, and of the binomial as Clopper and Pearson invert it. */
-#include "quantile.h"
-#include "elementary.h"
+#include "guard.h"
 
 #include <buffon/interval.h>
-#include <math.h>
+
+#include "elementary.h"
+#include "quantile.h"
 
 #define QUANTILE_NAN buffon_priv_from_bits(UINT64_C(0x7ff8000000000000))
 #define QUANTILE_INF buffon_priv_from_bits(UINT64_C(0x7ff0000000000000))
@@ -30,8 +31,8 @@ static double quantile_normal(double inside, double outside)
                         : buffon_priv_normal_two_sided(outside);
 }
 
-/* T^2 / (dof + T^2) is beta with parameters 1/2 and dof / 2, so T^2 is its odds against those of the
- * mean, and log T^2 what buffon_priv_beta_point returns. */
+/* T^2 / (dof + T^2) is beta with parameters 1/2 and dof / 2, so T^2 is its odds against those of
+ * the mean, and log T^2 what buffon_priv_beta_point returns. */
 double buffon_priv_student_central(double inside, double outside, double dof)
 {
     const double z = quantile_normal(inside, outside);
@@ -48,7 +49,8 @@ double buffon_priv_student_central(double inside, double outside, double dof)
     if (z * z < 2 * dof) {
         guess = 2 * buffon_priv_log(quantile_student_series(z, dof));
     }
-    return buffon_priv_exp(0.5 * buffon_priv_beta_point(&x, inside, outside, 0.5, 0.5 * dof, guess));
+    guess = buffon_priv_beta_point(&x, inside, outside, 0.5, 0.5 * dof, guess);
+    return buffon_priv_exp(0.5 * guess);
 }
 
 double buffon_priv_student_two_sided(double alpha, double dof)

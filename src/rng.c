@@ -166,16 +166,16 @@ RNG_INLINE rng_vector rng_step(rng_vector s[4])
 
 /* The fraction of a double in [1, 2) is k, and what is subtracted is 1 - 2^-53: the difference is
  * (k + 1/2) 2^-52, a multiple of 2^-53 below 1, hence exact in any rounding mode. */
-RNG_INLINE void rng_put(unsigned char *out, rng_vector word, int what)
+RNG_INLINE void rng_put(unsigned char *out, size_t at, rng_vector word, int what)
 {
     if (what == RNG_WORDS)
-        memcpy(out, &word, sizeof word);
+        memcpy(out + at, &word, sizeof word);
     if (what == RNG_UNIFORMS) {
         rng_doubles u;
         word = word >> 12 | UINT64_C(0x3ff0000000000000);
         memcpy(&u, &word, sizeof u);
         u -= 0x1.fffffffffffffp-1;
-        memcpy(out, &u, sizeof u);
+        memcpy(out + at, &u, sizeof u);
     }
 }
 
@@ -188,9 +188,9 @@ RNG_INLINE void rng_run(unsigned char *out, uint64_t state[4][RNG_LANES], size_t
             memcpy(&b[j], &state[j][lane + RNG_WIDTH], sizeof b[j]);
         }
         for (size_t i = 0; i < steps; i++) {
-            unsigned char *at = out + 8 * (RNG_LANES * i + lane);
-            rng_put(at, rng_step(a), what);
-            rng_put(at + RNG_VECTOR, rng_step(b), what);
+            size_t at = 8 * (RNG_LANES * i + lane);
+            rng_put(out, at, rng_step(a), what);
+            rng_put(out, at + RNG_VECTOR, rng_step(b), what);
         }
         for (int j = 0; j < 4; j++) {
             memcpy(&state[j][lane], &a[j], sizeof a[j]);
@@ -199,7 +199,7 @@ RNG_INLINE void rng_run(unsigned char *out, uint64_t state[4][RNG_LANES], size_t
     }
 }
 
-/* The next steps of all lanes: 16 words or uniforms each, or none if they are only to be passed. */
+/* The next steps of all lanes, 16 words or uniforms each; with RNG_NOTHING they are passed over. */
 static void rng_go(void *out, uint64_t state[4][RNG_LANES], size_t steps, int what)
 {
     if (what == RNG_UNIFORMS)
@@ -207,7 +207,7 @@ static void rng_go(void *out, uint64_t state[4][RNG_LANES], size_t steps, int wh
     else if (what == RNG_WORDS)
         rng_run(out, state, steps, RNG_WORDS);
     else
-        rng_run((unsigned char *)state, state, steps, RNG_NOTHING);
+        rng_run(NULL, state, steps, RNG_NOTHING);
 }
 
 /* Those from `from` on of a row, at most to its end. Only whole steps go straight to out. */

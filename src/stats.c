@@ -100,17 +100,15 @@ buffon_priv_wide buffon_priv_cross_covariance(const uint64_t *s_ab, const buffon
                                               const buffon_stats *b)
 {
     uint64_t n = a->count;
-    if (n < 2)
-        return (buffon_priv_wide){NAN, 0};
     buffon_priv_wide d = buffon_priv_limbs_spread(s_ab, a->sum, b->sum, n);
-    d = buffon_priv_wide_div(d, buffon_priv_wide_count(n));
+    d = buffon_priv_wide_div(d, buffon_priv_wide_count(n)); /* 0 / 0 for none, below for one */
     return buffon_priv_wide_div(d, buffon_priv_wide_count(n - 1));
 }
 
 buffon_priv_wide buffon_priv_stats_variance(const buffon_stats *s)
 {
     buffon_priv_wide variance = buffon_priv_cross_covariance(s->squares, s, s);
-    if (variance.m < 0.0) /* the rounding of a block's r and q */
+    if (variance.m < 0.0) /* no values give this, but a sample is only as sound as its memory */
         variance = (buffon_priv_wide){0.0, 0};
     return variance;
 }

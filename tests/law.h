@@ -1,9 +1,9 @@
 /* Statistics for tests of laws: p-values, and the rule by which they are judged.
  *
  * Every check fails with probability 1e-9 if all is well, half of it in each tail: data that agree
- * too well are as suspicious as data that disagree. With fewer than a thousand checks in the suite a
- * false alarm anywhere has probability below 1e-6; as seeds are fixed, it would be seen once and for
- * all. Nothing is ever drawn again.
+ * too well are as suspicious as data that disagree. With fewer than a thousand checks in the suite
+ * a false alarm anywhere has probability below 1e-6; as seeds are fixed, it would be seen once and
+ * for all. Nothing is ever drawn again.
  */
 #ifndef TESTS_LAW_H
 #define TESTS_LAW_H
@@ -63,8 +63,8 @@ LAW_UNUSED static double law_normal(double z)
     return erfc(fabs(z) / sqrt(2.0));
 }
 
-/* P(D > d) for the Kolmogorov-Smirnov statistic of n points, n in the hundreds or more: the limit law
- * with Stephens' correction. The second series is for the small d of data that are too even. */
+/* P(D > d) for the Kolmogorov-Smirnov statistic of n points, n in the hundreds or more: the limit
+ * law with Stephens' correction. The second series is for the small d of data that are too even. */
 LAW_UNUSED static double law_kolmogorov(double d, double n)
 {
     const double root = sqrt(n), x = (root + 0.12 + 0.11 / root) * d;
@@ -91,7 +91,8 @@ LAW_UNUSED static double law_uniform(double *v, size_t n)
     double d = 0;
     qsort(v, n, sizeof *v, law_compare);
     for (size_t i = 0; i < n; i++) {
-        const double above = (double)(i + 1) / (double)n - v[i], below = v[i] - (double)i / (double)n;
+        const double above = (double)(i + 1) / (double)n - v[i];
+        const double below = v[i] - (double)i / (double)n;
         d = above > d ? above : d;
         d = below > d ? below : d;
         if (!(v[i] >= 0 && v[i] <= 1))

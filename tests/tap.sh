@@ -22,7 +22,7 @@ tap_empty()
     if [ -n "$1" ]; then printf '%s\n' "$1" | head -n 20 | sed 's/^/# /'; fi
 }
 
-# tap_run <what> <command...>: passes if the command does; else shows what it said.
+# tap_run <what> <command...>: passes if the command does; else shows the end of what it said.
 tap_run()
 {
     tap_what=$1
@@ -30,7 +30,7 @@ tap_run()
     tap_output=$("$@" 2>&1)
     tap_code=$?
     tap_ok $tap_code "$tap_what"
-    if [ $tap_code -ne 0 ]; then printf '%s\n' "$tap_output" | head -n 20 | sed 's/^/# /'; fi
+    if [ $tap_code -ne 0 ]; then printf '%s\n' "$tap_output" | tail -n 20 | sed 's/^/# /'; fi
 }
 
 # tap_skip <what> <why>

@@ -1,37 +1,12 @@
-/* Densities: what is refused and how, extremes, batches against single points, there and back. */
+/* Densities: what is refused and how, batches against single points, there and back, products. */
 #include <buffon/buffon.h>
 #include <float.h>
 #include <math.h>
 
-#include "../src/box.h"
 #include "../src/density_priv.h"
-#include "tap.h"
+#include "refused.h"
 
 static const double up[3] = {0, 0, 1};
-
-static int is_nan(const double *x, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (x[i] == x[i])
-            return 0;
-    return 1;
-}
-
-static void refused(const buffon_density *g, buffon_status status, const char *what)
-{
-    double u[8] = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5}, x[8] = {0}, pdf = 0;
-    const int as_told = g->status == status && buffon_density_check(g) == status &&
-                        buffon_density_sample(x, &pdf, u, 1, g) == status &&
-                        is_nan(x, g->dim) && is_nan(&pdf, 1);
-    pdf = 0;
-    tap_ok(as_told && buffon_density_pdf(&pdf, u, 1, g) == status && is_nan(&pdf, 1),
-           "%s is refused: %s", what, buffon_status_name(status));
-}
-
-static void refused_by_value(buffon_density g, buffon_status status, const char *what)
-{
-    refused(&g, status, what);
-}
 
 static void test_refusals(void)
 {
@@ -75,7 +50,7 @@ static void test_refusals(void)
     refused_by_value(buffon_hemisphere_about(NULL), BUFFON_E_NULL, "a hemisphere without axis");
     refused_by_value(buffon_hemisphere_about(zero), BUFFON_E_SHAPE, "a hemisphere about nothing");
     refused_by_value(buffon_hemisphere_cosine_about(NULL), BUFFON_E_NULL, "a cosine without axis");
-    refused_by_value(buffon_hemisphere_cosine_about(far), BUFFON_E_SHAPE, "a cosine about infinity");
+    refused_by_value(buffon_hemisphere_cosine_about(far), BUFFON_E_SHAPE, "an infinite axis");
     refused_by_value(buffon_density_product(NULL, 1), BUFFON_E_NULL, "a product without parts");
     const buffon_density parts[2] = {buffon_sphere(), buffon_disk(-1)};
     refused_by_value(buffon_density_product(parts, 0), BUFFON_E_NULL, "a product of no parts");
@@ -87,133 +62,6 @@ static void test_refusals(void)
     buffon_density product = buffon_density_product(&large, 1);
     tap_ok(large.status == BUFFON_OK && product.status == BUFFON_E_DIM,
            "a product refuses a part of thousands of coordinates");
-}
-
-static double half(double x, void *ctx)
-{
-    (void)ctx;
-    return 0.5 * x;
-}
-
-static double broken(double x, void *ctx)
-{
-    (void)ctx;
-    return x > 0.25 ? NAN : 0.5;
-}
-
-static double endless_quantile(double u, void *ctx)
-{
-    (void)ctx;
-    return u > 0.5 ? INFINITY : u;
-}
-
-/* Reaches a half only. */
-static double short_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    return x < 0 ? 0 : x > 1 ? 0.5 : 0.5 * x;
-}
-
-/* Starts at a half. */
-static double late_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    return x < 0 ? 0.5 : x > 1 ? 1 : 0.5 + 0.5 * x;
-}
-
-/* Ends a rounding short of 1, as the CDF of a sum of many terms may. */
-static double rounded_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    return x < 0 ? 0x1p-52 : x > 1 ? 1 - 0x1p-51 : 0x1p-52 + x * (1 - 3 * 0x1p-52);
-}
-
-static double one(double x, void *ctx)
-{
-    (void)ctx;
-    return x >= 0 && x <= 1;
-}
-
-static void test_inversion_refusals(void)
-{
-    const double x[3] = {0, 1, 2}, F[3] = {0, 1, 3}, same[3] = {0, 1, 1}, wide[2] = {-1e308, 1e308};
-    const double steep[2] = {0, 1e-320}, nan[3] = {0, NAN, 2};
-    const struct {
-        const char *what;
-        buffon_status status;
-        buffon_inversion how;
-    } bad[] = {
-        {"no form", BUFFON_E_SHAPE, {.ctx = NULL}},
-        {"a table and a quantile", BUFFON_E_SHAPE, {.quantile = half, .x = x, .F = F, .count = 3}},
-        {"a CDF without pdf", BUFFON_E_NULL, {.cdf = half}},
-        {"a pdf alone", BUFFON_E_NULL, {.pdf = half}},
-        {"a table without F", BUFFON_E_NULL, {.x = x, .count = 3}},
-        {"a table without x", BUFFON_E_NULL, {.F = F, .count = 3}},
-        {"a table of one point", BUFFON_E_TABLE, {.x = x, .F = F, .count = 1}},
-        {"a table of none", BUFFON_E_TABLE, {.x = x, .F = F}},
-        {"a table with a step", BUFFON_E_TABLE, {.x = same, .F = F, .count = 3}},
-        {"a table with a plateau", BUFFON_E_TABLE, {.x = x, .F = same, .count = 3}},
-        {"a table with a NaN", BUFFON_E_TABLE, {.x = nan, .F = F, .count = 3}},
-        {"a table past DBL_MAX", BUFFON_E_TABLE, {.x = wide, .F = F, .count = 2}},
-        {"a slope past DBL_MAX", BUFFON_E_TABLE, {.x = steep, .F = F, .count = 2}},
-        {"a support backwards", BUFFON_E_DOMAIN, {.cdf = half, .pdf = half, .lo = 1, .hi = 0}},
-        {"a support of NaN", BUFFON_E_DOMAIN, {.cdf = half, .pdf = half, .lo = NAN, .hi = 1}},
-        {"a reserved word", BUFFON_E_RESERVED, {.quantile = half, .reserved = {0, 1}}},
-    };
-    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
-        refused_by_value(buffon_inverse(&bad[k].how), bad[k].status, bad[k].what);
-    refused_by_value(buffon_inverse(NULL), BUFFON_E_NULL, "an inversion of NULL");
-}
-
-static void test_inversion_failures(void)
-{
-    double x[2] = {0, 0}, pdf[2] = {0, 0}, v;
-    const double u[2] = {0.2, 0.7};
-    const buffon_inversion endless = {.quantile = endless_quantile};
-    buffon_density g = buffon_inverse(&endless);
-    tap_ok(buffon_density_sample(x, NULL, u, 2, &g) == BUFFON_E_INVERSION && is_nan(x, 2),
-           "a quantile that is not finite is found");
-    tap_ok(g.ops->sample(x, NULL, u, 2, &g) != 0 && x[0] == 0.2 && is_nan(x + 1, 1),
-           "and leaves NaN at its point alone");
-    tap_ok(buffon_density_sample(x, pdf, u, 1, &g) == BUFFON_E_UNSUPPORTED && is_nan(pdf, 1) &&
-               buffon_density_pdf(pdf, u, 1, &g) == BUFFON_E_UNSUPPORTED &&
-               buffon_density_log_pdf(pdf, u, 1, &g) == BUFFON_E_UNSUPPORTED &&
-               !buffon_priv_density_has_pdf(&g),
-           "a quantile without pdf has none");
-    tap_ok(buffon_density_invert(x, u, 1, &g) == BUFFON_E_UNSUPPORTED && is_nan(x, 1),
-           "a quantile without CDF has no way back");
-    const struct {
-        const char *what;
-        buffon_inversion how;
-    } bad[] = {
-        {"a CDF of NaN", {.cdf = broken, .pdf = one, .lo = 0, .hi = 1}},
-        {"a CDF that ends at a half", {.cdf = short_cdf, .pdf = one, .lo = 0, .hi = 1}},
-        {"a CDF that ends at a half, on the line", {.cdf = short_cdf, .pdf = one}},
-    };
-    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        v = 0;
-        tap_ok(buffon_inverse_sample(&v, pdf, 0.7, &bad[k].how) == BUFFON_E_INVERSION &&
-                   is_nan(&v, 1) && is_nan(pdf, 1),
-               "%s fails where it does not reach", bad[k].what);
-    }
-    buffon_inversion late = {.cdf = late_cdf, .pdf = one, .lo = 0, .hi = 1};
-    tap_ok(buffon_inverse_sample(&v, NULL, 0.2, &late) == BUFFON_E_INVERSION,
-           "a CDF that starts at a half fails below");
-    late.lo = late.hi = 0;
-    tap_ok(buffon_inverse_sample(&v, NULL, 0.2, &late) == BUFFON_E_INVERSION,
-           "a CDF that starts at a half fails below, on the line");
-    tap_ok(buffon_inverse_sample(&v, NULL, 0.75, &late) == BUFFON_OK && fabs(v - 0.5) < 1e-15,
-           "and works above");
-    buffon_inversion rounded = {.cdf = rounded_cdf, .pdf = one, .lo = 0, .hi = 1};
-    for (int line = 0; line < 2; line++) {
-        double w;
-        tap_ok(buffon_inverse_sample(&v, NULL, 1 - 0x1p-53, &rounded) == BUFFON_OK &&
-                   fabs(v - 1) < 1e-15 &&
-                   buffon_inverse_sample(&w, NULL, 0x1p-53, &rounded) == BUFFON_OK &&
-                   w >= -DBL_MAX && w < 1e-15,
-               "a CDF a few roundings short of 0 and 1 is no failure%s", line ? ", on the line" : "");
-        rounded.lo = rounded.hi = 0;
-    }
 }
 
 /* A user's density: x = u^2 on (0, 1), which fails on request. */
@@ -377,12 +225,13 @@ static int same_in_batches(const buffon_density *g, size_t n)
             buffon_density_pdf(far, x, n, g) == BUFFON_OK &&
             buffon_density_invert(back, x, n, g) == BUFFON_OK;
     for (size_t i = 0; i < n; i++) {
-        double v[16], y[16], p, w[16], q;
+        double v[16], y[16], w[16], p = 0, q = 0;
         for (size_t j = 0; j < g->uniforms; j++)
             v[j] = u[j * n + i];
-        same &= buffon_density_sample(y, &p, v, 1, g) == BUFFON_OK && tap_bits(p) == tap_bits(pdf[i]);
-        same &= buffon_density_pdf(&q, y, 1, g) == BUFFON_OK && tap_bits(q) == tap_bits(far[i]);
-        same &= buffon_density_invert(w, y, 1, g) == BUFFON_OK;
+        same &= buffon_density_sample(y, &p, v, 1, g) == BUFFON_OK &&
+                buffon_density_pdf(&q, y, 1, g) == BUFFON_OK &&
+                buffon_density_invert(w, y, 1, g) == BUFFON_OK;
+        same &= tap_bits(p) == tap_bits(pdf[i]) && tap_bits(q) == tap_bits(far[i]);
         for (size_t j = 0; j < g->dim; j++)
             same &= tap_bits(y[j]) == tap_bits(x[j * n + i]);
         for (size_t j = 0; j < g->uniforms; j++)
@@ -441,116 +290,6 @@ static void test_zoo(void)
     }
 }
 
-/* Scalar conveniences are the densities. */
-static void test_scalars(void)
-{
-    const buffon_density disk = buffon_disk(1), concentric = buffon_disk_concentric(1);
-    const buffon_density sphere = buffon_sphere(), cap = buffon_cap(0.3), dome = buffon_hemisphere();
-    const buffon_density cosine = buffon_hemisphere_cosine(), segment = buffon_segment(-1, 7);
-    int same = 1;
-    buffon_rng rng = buffon_rng_make(1, 25);
-    for (int k = 0; k < 1000; k++) {
-        double u[2], x[3], y[3], v[2], w[2];
-        buffon_rng_fill(u, 2, &rng);
-#define SAME(g, sample, invert)                                                                     \
-    do {                                                                                            \
-        sample;                                                                                     \
-        same &= buffon_density_sample(x, NULL, u, 1, &(g)) == BUFFON_OK;                            \
-        same &= memcmp(x, y, (g).dim * sizeof *x) == 0;                                             \
-        invert;                                                                                     \
-        same &= buffon_density_invert(v, x, 1, &(g)) == BUFFON_OK;                                  \
-        same &= memcmp(v, w, sizeof v) == 0;                                                        \
-    } while (0)
-        SAME(disk, buffon_disk_sample(y, u[0], u[1]), buffon_disk_invert(w, x));
-        SAME(concentric, buffon_disk_sample_concentric(y, u[0], u[1]),
-             buffon_disk_invert_concentric(w, x));
-        SAME(sphere, buffon_sphere_sample(y, u[0], u[1]), buffon_sphere_invert(w, x));
-        SAME(cap, buffon_cap_sample(y, u[0], u[1], 0.3), buffon_cap_invert(w, x, 0.3));
-        SAME(dome, buffon_hemisphere_sample(y, u[0], u[1]), buffon_hemisphere_invert(w, x));
-        SAME(cosine, buffon_hemisphere_sample_cosine(y, u[0], u[1]),
-             buffon_hemisphere_invert_cosine(w, x));
-#undef SAME
-        same &= buffon_density_sample(x, NULL, u, 1, &segment) == BUFFON_OK;
-        same &= x[0] == buffon_segment_sample(u[0], -1, 7);
-        same &= buffon_inverse_sample(x, v, u[0], &zoo_quantile) == BUFFON_OK;
-        same &= x[0] == sqrt(u[0]) && v[0] == 2 * x[0];
-    }
-    tap_ok(same, "scalar functions give the points of the densities");
-    double x[3] = {0, 0, 0};
-    buffon_cap_sample(x, 0.5, 0.5, 1);
-    tap_ok(is_nan(x, 3), "a point of no cap is NaN");
-    buffon_cap_invert(x, up, -2);
-    tap_ok(is_nan(x, 2), "and so is its inverse");
-    tap_ok(buffon_segment_sample(0.5, 1, 1) != buffon_segment_sample(0.5, 1, 1),
-           "a point of no segment is NaN");
-    const double lo[3] = {0, 1, 2}, hi[3] = {1, 1, 3}, u[3] = {0.5, 0.5, 0.5};
-    x[0] = x[1] = x[2] = 0;
-    buffon_box_sample(x, u, lo, hi, 3);
-    tap_ok(is_nan(x, 3), "a point of no box is NaN");
-    buffon_box_sample(x, u, zoo_lo, zoo_hi, 3);
-    tap_ok(x[0] == 0.5 && x[1] == 0.5 && x[2] == 1.5e10, "a point of a box");
-}
-
-static int inside_always(double lo, double hi)
-{
-    const double next = nextafter(lo, hi);
-    int good = 1;
-    buffon_rng rng = buffon_rng_make(1, 26);
-    for (int k = 0; k < 2000; k++) {
-        const double u = k == 0 ? 0x1p-53 : k == 1 ? 1 - 0x1p-53 : buffon_rng_next(&rng);
-        const double x = buffon_segment_sample(u, lo, hi);
-        good &= next < hi ? x > lo && x < hi : x == lo || x == hi;
-    }
-    return good;
-}
-
-static void test_boxes(void)
-{
-    tap_ok(inside_always(0, 1) && inside_always(-DBL_MAX, DBL_MAX) && inside_always(1e16, 1e16 + 4) &&
-               inside_always(-1e308, DBL_MAX) && inside_always(-1, 0) && inside_always(-1e-300, 1) &&
-               inside_always(-DBL_MAX, nextafter(-DBL_MAX, 0)),
-           "points are strictly inside");
-    tap_ok(inside_always(0, 0x1p-1074) && inside_always(0, 0x1p-1073) &&
-               inside_always(0, 0x1p-1060) && inside_always(1, 1 + DBL_EPSILON) &&
-               inside_always(1, 1 + 2 * DBL_EPSILON) && inside_always(1e300, 1.1e300),
-           "also in boxes of a few doubles, where there are any");
-    const double mid = buffon_segment_sample(0.5, -DBL_MAX, DBL_MAX);
-    const double upper = buffon_segment_sample(0.75, -DBL_MAX, DBL_MAX);
-    tap_ok(mid == 0 && fabs(upper / DBL_MAX - 0.5) < 1e-15,
-           "a width beyond the doubles");
-    double volume, lo[400], hi[400], x[400];
-    int e;
-    for (int j = 0; j < 400; j++) {
-        lo[j] = j % 2 ? -DBL_MAX : 0;
-        hi[j] = j % 2 ? DBL_MAX : 0x1p-1074;
-        x[j] = 0;
-    }
-    buffon_priv_box_volume(&volume, &e, lo, hi, 400);
-    tap_ok(fabs(volume - 1) < 1e-12 && e == 200 * (1025 - 1074),
-           "the volume of a box never leaves the doubles");
-    buffon_priv_box_volume(&volume, &e, lo, hi, 1);
-    tap_ok(volume == 0.5 && e == -1073, "nor of the least segment");
-    for (int j = 0; j < 400; j++) {
-        lo[j] = 0;
-        hi[j] = 1000;
-    }
-    const buffon_density g = buffon_box(lo, hi, 400);
-    double pdf, log_pdf;
-    tap_ok(buffon_density_pdf(&pdf, x, 1, &g) == BUFFON_OK && pdf == 0 &&
-               buffon_density_log_pdf(&log_pdf, x, 1, &g) == BUFFON_OK &&
-               fabs(log_pdf / (-400 * log(1000)) - 1) < 1e-15,
-           "log pdf where the pdf underflows");
-    x[7] = -1;
-    tap_ok(buffon_density_log_pdf(&log_pdf, x, 1, &g) == BUFFON_OK && log_pdf == -INFINITY,
-           "and outside");
-    double a = 3, b = 4;
-    const buffon_density copied = buffon_box(&a, &b, 1);
-    a = b = NAN;
-    x[0] = 3.5;
-    tap_ok(buffon_density_pdf(&pdf, x, 1, &copied) == BUFFON_OK && pdf == 1,
-           "the bounds of a small box are copied");
-}
-
 static void test_products(void)
 {
     static buffon_density parts[200];
@@ -577,7 +316,8 @@ static void test_products(void)
            "outside one part is outside the product");
     const buffon_inversion bare = {.quantile = square_root};
     const buffon_density some[2] = {buffon_sphere(), buffon_inverse(&bare)};
-    const buffon_density h = buffon_density_product(some, 2), nested = buffon_density_product(&h, 1);
+    const buffon_density h = buffon_density_product(some, 2);
+    const buffon_density nested = buffon_density_product(&h, 1);
     tap_ok(!buffon_priv_density_has_pdf(&nested) &&
                buffon_density_sample(x, pdf, u, 1, &nested) == BUFFON_E_UNSUPPORTED &&
                buffon_density_pdf(pdf, x, 1, &nested) == BUFFON_E_UNSUPPORTED &&
@@ -595,7 +335,7 @@ static void test_identity(void)
 {
     const buffon_density ab[2] = {buffon_disk(1), buffon_disk(2)}, ba[2] = {ab[1], ab[0]};
     const buffon_density copy[2] = {ab[0], ab[1]};
-    double knots[4], lo[9], hi[9], before;
+    double knots[4], lo[9], hi[9];
     memcpy(knots, zoo_knots, sizeof knots);
     memcpy(lo, zoo_lo, sizeof lo);
     memcpy(hi, zoo_hi, sizeof hi);
@@ -608,8 +348,7 @@ static void test_identity(void)
     good &= identity(buffon_inverse(&table)) != identity(buffon_inverse(&zoo_table));
     tap_ok(good, "a table by its contents");
     good = identity(buffon_box(lo, hi, 9)) == identity(buffon_box(zoo_lo, zoo_hi, 9));
-    before = lo[8];
-    lo[8] = before - 1;
+    lo[8] -= 1;
     good &= identity(buffon_box(lo, hi, 9)) != identity(buffon_box(zoo_lo, zoo_hi, 9));
     tap_ok(good, "a large box by its bounds");
     tap_ok(identity(buffon_disk(1)) != identity(buffon_disk_concentric(1)) &&
@@ -620,101 +359,13 @@ static void test_identity(void)
            "others by their law and numbers");
 }
 
-static double pdf_at(const buffon_density *g, double x, double y, double z)
-{
-    const double point[3] = {x, y, z};
-    double pdf;
-    return buffon_density_pdf(&pdf, point, 1, g) == BUFFON_OK ? pdf : NAN;
-}
-
-/* Where densities end. */
-static void test_supports(void)
-{
-    const double x[3] = {1, 0, 0};
-    const buffon_density disk = buffon_disk(2), sphere = buffon_sphere(), cap = buffon_cap(0.5);
-    const buffon_density side = buffon_cap_about(0.5, x), cosine = buffon_hemisphere_cosine();
-    const buffon_density tiny = buffon_cap_height(1e-200, up), box = buffon_segment(1, 2);
-    const double r = sqrt(0.75), pi = 3.14159265358979323846;
-    tap_ok(pdf_at(&disk, 1.2, 1.6000000000000003, 0) == 0 && pdf_at(&disk, 1.2, 1.59999, 0) > 0 &&
-               pdf_at(&disk, NAN, 0, 0) == 0 && pdf_at(&disk, 1e200, 1e200, 0) == 0,
-           "a disk ends at its edge");
-    tap_ok(pdf_at(&sphere, 0.6, 0, -0.8) > 0 && pdf_at(&sphere, 0.6, 0, -0.81) == 0 &&
-               pdf_at(&sphere, 0, 0, 0) == 0 && pdf_at(&sphere, NAN, 0, 1) == 0 &&
-               pdf_at(&sphere, (float)0.6, 0, (float)0.8) > 0,
-           "a sphere is for unit vectors, floats included");
-    tap_ok(pdf_at(&cap, r + 1e-14, 0, 0.5 - 1e-14) == 0 && pdf_at(&cap, r, 0, 0.5) > 0 &&
-               pdf_at(&cap, 0, 0, -1) == 0 && pdf_at(&cap, 0, 0, 1) > 0 &&
-               fabs(pdf_at(&cap, 0, 0, 1) * pi - 1) < 1e-15,
-           "a cap ends at its plane");
-    tap_ok(pdf_at(&side, 0.5 - 1e-14, r + 1e-14, 0) == 0 && pdf_at(&side, 0.5, 0, r) > 0 &&
-               pdf_at(&side, -1, 0, 0) == 0,
-           "about another axis too");
-    tap_ok(pdf_at(&tiny, 2.1e-100, 0, 1) == 0 && pdf_at(&tiny, 1.4e-100, 0, 1) > 1e199 &&
-               pdf_at(&tiny, 1.42e-100, 0, 1) == 0,
-           "a cap of height 1e-200 has an edge as sharp");
-    tap_ok(pdf_at(&cosine, 1, 0, 0) == 0 && pdf_at(&cosine, 0.6, 0, -0.8) == 0 &&
-               fabs(pdf_at(&cosine, 0.6, 0, 0.8) * pi - 0.8) < 1e-15,
-           "the cosine hemisphere ends at the horizon");
-    tap_ok(pdf_at(&box, 1, 0, 0) == 1 && pdf_at(&box, 2.0000000000000004, 0, 0) == 0 &&
-               pdf_at(&box, NAN, 0, 0) == 0,
-           "a segment ends at its ends");
-}
-
-/* The same cap by every constructor; scales of axes; spheres near and far. */
-static void test_cap_forms(void)
-{
-    const double axis[3] = {2, -1, 2}, huge[3] = {2e307, -1e307, 2e307};
-    const double tiny[3] = {0x1p-1073, -0x1p-1074, 0x1p-1073}, origin[3] = {0, 0, 0};
-    const double here[3] = {1e308, 1e308, -1e308}, there[3] = {-1e308, 1e308, -1e308};
-    const double h = 0.5;
-    const buffon_density g[6] = {buffon_cap_about(0.5, axis),
-                                 buffon_cap_angle(1.0471975511965976, huge),
-                                 buffon_cap_height(h, tiny),
-                                 buffon_cap_of_sphere(origin, axis, 3 * sqrt(0.75)),
-                                 buffon_cap_of_sphere(origin, huge, 3e307 * sqrt(0.75)),
-                                 buffon_cap_height(0.5, axis)};
-    const double u[2] = {0.3, 0.8};
-    double first[3], x[3], pdf;
-    int good = buffon_density_sample(first, NULL, u, 1, &g[0]) == BUFFON_OK;
-    for (int k = 0; k < 6; k++) {
-        good &= buffon_density_sample(x, &pdf, u, 1, &g[k]) == BUFFON_OK;
-        good &= fabs(pdf * 3.14159265358979323846 - 1) < 2e-15;
-        for (int j = 0; j < 3; j++)
-            good &= fabs(x[j] - first[j]) < 2e-15;
-    }
-    tap_ok(good, "every way to name a cap gives the same, axes of any length");
-    const buffon_density wide = buffon_cap_of_sphere(here, there, 1e307);
-    tap_ok(buffon_density_sample(x, &pdf, u, 1, &wide) == BUFFON_OK && x[0] < -0.99 &&
-               fabs(pdf * 3.14159265358979323846 * 0.0025 - 1) < 1e-3,
-           "a sphere at a distance beyond the doubles");
-    const buffon_density sun = buffon_cap_height(1e-300, axis);
-    good = 1;
-    for (int k = 0; k < 8; k++) {
-        const double v[2] = {k & 1 ? 0x1p-53 : 1 - 0x1p-53, k / 8.0 + 0.05};
-        double again;
-        good &= buffon_density_sample(x, &pdf, v, 1, &sun) == BUFFON_OK;
-        good &= buffon_density_pdf(&again, x, 1, &sun) == BUFFON_OK && again == pdf && pdf > 1e299;
-    }
-    tap_ok(good, "a cap smaller than the steps of the doubles keeps its points");
-    const buffon_density whole = buffon_cap_angle(3.1415926535897931, up), cut = buffon_cap(-1);
-    tap_ok(whole.param[9] == 2 && cut.param[9] == 2 && pdf_at(&whole, 0, 0, -1) > 0 &&
-               pdf_at(&cut, 0, 0, -1) == pdf_at(&cut, 0, 0, 1),
-           "the whole sphere is a cap");
-}
-
 int main(void)
 {
     test_refusals();
-    test_inversion_refusals();
-    test_inversion_failures();
     test_user();
     test_calls();
     test_zoo();
-    test_scalars();
-    test_boxes();
     test_products();
     test_identity();
-    test_supports();
-    test_cap_forms();
     return tap_done();
 }

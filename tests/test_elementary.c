@@ -239,7 +239,8 @@ static void test_accuracy_angle(void)
     test_state = 2;
     for (i = 0; i < 4 * TEST_ARGUMENTS; i++) {
         const double a = i & 1 ? test_uniform(-1, 1) : test_any();
-        const double b = i % 4 < 2 ? a * test_uniform(-4, 4) : i & 1 ? test_uniform(-1, 1) : test_any();
+        const double other = i & 1 ? test_uniform(-1, 1) : test_any();
+        const double b = i % 4 < 2 ? a * test_uniform(-4, 4) : other;
         const double y = i & 8 ? a : b, x = i & 8 ? b : a;
         const long double want = atan2l((long double)y, (long double)x) / PI_L;
         const double ulps = test_ulps(buffon_priv_atan2pi(y, x), want);
@@ -279,10 +280,6 @@ static void test_half_turns(void)
     buffon_priv_sincospi(&s, &c, DBL_MAX);
     wrong += s != 0 || c != 1;
     tap_ok(wrong == 0, "sincospi of large numbers sees odd and even");
-    buffon_priv_sincospi(&s, &c, -INFINITY);
-    tap_ok(isnan(s) && isnan(c), "sincospi of an infinity is NaN");
-    buffon_priv_sincospi(&s, &c, NAN);
-    tap_ok(isnan(s) && isnan(c), "sincospi of NaN is NaN");
 }
 
 static void test_odd(void)
@@ -299,11 +296,65 @@ static void test_odd(void)
     for (i = 0; i < TEST_ARGUMENTS; i++) {
         const double u = ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
         wrong += buffon_priv_normal_quantile(u) != -buffon_priv_normal_quantile(1 - u);
-        wrong += buffon_priv_normal_quantile(u) != buffon_priv_normal_central(u - 0.5) &&
-                 fabs(u - 0.5) >= 0.25 && u > 0.5;
+        wrong += u > 0.5 && buffon_priv_normal_quantile(u) != buffon_priv_normal_central(u - 0.5);
     }
     tap_ok(wrong == 0, "the normal quantile of 1 - u is that of u negated, to the bit");
 }
+
+static const struct {
+    const char *name;
+    double (*f)(double);
+    double x, want;
+} test_special[] = {
+    {"log", buffon_priv_log, 0.0, -INFINITY},
+    {"log", buffon_priv_log, -0.0, -INFINITY},
+    {"log", buffon_priv_log, 1, 0},
+    {"log", buffon_priv_log, -0x1p-1074, NAN},
+    {"log", buffon_priv_log, 0x1p-1074, -0x1.74385446d71c3p+9},
+    {"log", buffon_priv_log, INFINITY, INFINITY},
+    {"log", buffon_priv_log, -INFINITY, NAN},
+    {"log", buffon_priv_log, NAN, NAN},
+    {"log1p", buffon_priv_log1p, 0.0, 0.0},
+    {"log1p", buffon_priv_log1p, -0.0, -0.0},
+    {"log1p", buffon_priv_log1p, 0x1p-1074, 0x1p-1074},
+    {"log1p", buffon_priv_log1p, -1, -INFINITY},
+    {"log1p", buffon_priv_log1p, -1 - DBL_EPSILON, NAN},
+    {"log1p", buffon_priv_log1p, INFINITY, INFINITY},
+    {"log1p", buffon_priv_log1p, -INFINITY, NAN},
+    {"log1p", buffon_priv_log1p, NAN, NAN},
+    {"log1p_excess", buffon_priv_log1p_excess, 0.0, 0.0},
+    {"log1p_excess", buffon_priv_log1p_excess, -1, INFINITY},
+    {"log1p_excess", buffon_priv_log1p_excess, NAN, NAN},
+    {"exp", buffon_priv_exp, -0.0, 1},
+    {"exp", buffon_priv_exp, 0x1p-1074, 1},
+    {"exp", buffon_priv_exp, 709.79, INFINITY},
+    {"exp", buffon_priv_exp, INFINITY, INFINITY},
+    {"exp", buffon_priv_exp, -745, 0x1p-1074},
+    {"exp", buffon_priv_exp, -745.14, 0},
+    {"exp", buffon_priv_exp, -INFINITY, 0},
+    {"exp", buffon_priv_exp, NAN, NAN},
+    {"expm1", buffon_priv_expm1, 0.0, 0.0},
+    {"expm1", buffon_priv_expm1, -0.0, -0.0},
+    {"expm1", buffon_priv_expm1, 0x1p-1074, 0x1p-1074},
+    {"expm1", buffon_priv_expm1, 709.79, INFINITY},
+    {"expm1", buffon_priv_expm1, INFINITY, INFINITY},
+    {"expm1", buffon_priv_expm1, -1e300, -1},
+    {"expm1", buffon_priv_expm1, -INFINITY, -1},
+    {"expm1", buffon_priv_expm1, NAN, NAN},
+    {"sinpi", buffon_priv_sinpi, -INFINITY, NAN},
+    {"cospi", buffon_priv_cospi, INFINITY, NAN},
+    {"sinpi", buffon_priv_sinpi, NAN, NAN},
+    {"cospi", buffon_priv_cospi, NAN, NAN},
+    {"normal_quantile", buffon_priv_normal_quantile, 0, -INFINITY},
+    {"normal_quantile", buffon_priv_normal_quantile, 1, INFINITY},
+    {"normal_quantile", buffon_priv_normal_quantile, 0.5, 0},
+    {"normal_quantile", buffon_priv_normal_quantile, -0x1p-1074, NAN},
+    {"normal_quantile", buffon_priv_normal_quantile, 1 + DBL_EPSILON, NAN},
+    {"normal_quantile", buffon_priv_normal_quantile, NAN, NAN},
+    {"normal_central", buffon_priv_normal_central, 0.5, INFINITY},
+    {"normal_central", buffon_priv_normal_central, -0.5, -INFINITY},
+    {"normal_central", buffon_priv_normal_central, NAN, NAN},
+};
 
 /* Equal bits, or NaN for NaN. */
 static int test_same(double got, double want)
@@ -313,41 +364,16 @@ static int test_same(double got, double want)
 
 static void test_specials(void)
 {
-    static const double arguments[] = {0.0, -0.0, 1, -1, -2, INFINITY, -INFINITY, NAN, 0x1p-1074};
-    size_t i;
-    int wrong = 0;
-    for (i = 0; i < sizeof arguments / sizeof *arguments; i++) {
-        const double x = arguments[i];
-        wrong += !test_same(buffon_priv_log(x), x == 0x1p-1074 ? -0x1.74385446d71c3p+9 : log(x));
-        wrong += !test_same(buffon_priv_log1p(x), x == 1 ? 0x1.62e42fefa39efp-1 : log1p(x));
-        wrong += !test_same(buffon_priv_exp(x), fabs(x) > 0.5 && isfinite(x) ? buffon_priv_exp(x)
-                                                                             : exp(x));
-        wrong += !test_same(buffon_priv_expm1(x), fabs(x) > 0.5 && isfinite(x)
-                                                      ? buffon_priv_expm1(x)
-                                                      : expm1(x));
-        wrong += !test_same(buffon_priv_log1p_excess(x),
-                            fabs(x) == 0   ? 0
-                            : x == -1      ? INFINITY
-                            : x > 0.5      ? buffon_priv_log1p_excess(x)
-                            : x > -1       ? 0
-                                           : NAN);
-        if (wrong) {
-            tap_note("first wrong at %a", x);
-            break;
+    const size_t n = sizeof test_special / sizeof *test_special;
+    size_t i, wrong = 0;
+    for (i = 0; i < n; i++) {
+        const double got = test_special[i].f(test_special[i].x);
+        if (!test_same(got, test_special[i].want)) {
+            tap_note("%s(%a) is %a", test_special[i].name, test_special[i].x, got);
+            wrong++;
         }
     }
-    tap_ok(wrong == 0, "log, log1p, exp, expm1 of zeros, infinities, NaN");
-    tap_ok(buffon_priv_exp(709.79) == INFINITY && buffon_priv_exp(-745.14) == 0 &&
-               buffon_priv_exp(-745) == 0x1p-1074 && buffon_priv_exp(1e300) == INFINITY &&
-               buffon_priv_expm1(709.79) == INFINITY && buffon_priv_expm1(-1e300) == -1,
-           "exp and expm1 end where doubles end");
-    tap_ok(buffon_priv_normal_quantile(0) == -INFINITY && buffon_priv_normal_quantile(1) == INFINITY &&
-               buffon_priv_normal_quantile(0.5) == 0 && isnan(buffon_priv_normal_quantile(-0x1p-1074)) &&
-               isnan(buffon_priv_normal_quantile(nextafter(1, 2))) &&
-               isnan(buffon_priv_normal_quantile(NAN)) &&
-               buffon_priv_normal_central(-0.5) == -INFINITY &&
-               buffon_priv_normal_central(0x1p-1000) > 0,
-           "the normal quantile of 0, 1, 1/2 and beyond");
+    tap_ok(wrong == 0, "%zu special values", n);
 }
 
 static void test_angles(void)
@@ -378,10 +404,9 @@ static void test_parts(void)
     int wrong[4] = {0, 0, 0, 0}, i, k, theirs;
     test_state = 4;
     for (i = 0; i < 400000; i++) {
-        const double x = i < 5         ? specials[i]
-                         : i % 3 == 0  ? buffon_priv_from_bits(test_word() >> 12)
-                         : i % 3 == 1 ? test_any()
-                                      : test_uniform(-2, 2);
+        const double x = i < 5 ? specials[i]
+                         : i & 1 ? test_any()
+                                 : buffon_priv_from_bits(test_word() >> 12);
         k = (int)(test_word() % 4400) - 2200;
         wrong[0] += !test_same(buffon_priv_ldexp(x, k), ldexp(x, k));
         wrong[1] += !test_same(buffon_priv_frexp(&k, x), frexp(x, &theirs));
@@ -397,7 +422,7 @@ static void test_parts(void)
     tap_ok(wrong[2] == 0 && buffon_priv_nextup(-0x1p-1074) == 0, "nextup agrees with nextafter");
     tap_ok(wrong[3] == 0, "nextdown agrees with nextafter");
     tap_ok(buffon_priv_isfinite(DBL_MAX) && !buffon_priv_isfinite(INFINITY) &&
-               !buffon_priv_isfinite(NAN) && tap_bits(buffon_priv_copysign(2, -0.0)) == tap_bits(-2) &&
+               !buffon_priv_isfinite(NAN) && buffon_priv_copysign(2, -0.0) == -2 &&
                tap_bits(buffon_priv_abs(-0.0)) == 0,
            "isfinite, copysign and abs");
 }
@@ -449,20 +474,21 @@ static double test_angle(double y)
 
 static void test_bits(void)
 {
-    test_frozen("sincospi", test_both, test_frozen_signed, UINT64_C(0x4686085e76a8117e));
+    test_frozen("sincospi", test_both, test_frozen_signed, UINT64_C(0x73e53b9ec78c48bd));
     test_frozen("log", buffon_priv_log, test_frozen_unit, UINT64_C(0x25f78a12fd9b7fb9));
     test_frozen("log1p", buffon_priv_log1p, test_frozen_signed, UINT64_C(0x1cd0f773f4e7a041));
     test_frozen("exp", buffon_priv_exp, test_frozen_signed, UINT64_C(0xa72a788cc39d5e46));
     test_frozen("expm1", buffon_priv_expm1, test_frozen_signed, UINT64_C(0xa438af50310d0e03));
-    test_frozen("atan2pi", test_angle, test_frozen_signed, UINT64_C(0xdb8dbedb8801d7e6));
-    test_frozen("normal_quantile", buffon_priv_normal_quantile, test_frozen_unit, UINT64_C(0x62cf1e753740baae));
+    test_frozen("atan2pi", test_angle, test_frozen_signed, UINT64_C(0x3b10e62190d21e63));
+    test_frozen("normal_quantile", buffon_priv_normal_quantile, test_frozen_unit,
+                UINT64_C(0x62cf1e753740baae));
 }
 
 /* Along u the normal quantile never falls by more than rounding. */
 static void test_monotone(void)
 {
-    static const double seams[] = {0x1p-1060, 0x1.e8a12e5bf4d3bp-37 /* exp(-25) */, 0.075, 0.3, 0.925,
-                                   0.99999};
+    static const double seams[] = {0x1p-1060, 1.38879438649640206e-11 /* exp(-25) */, 0.075,
+                                   0.3, 0.925, 0.99999};
     int wrong = 0, i, j;
     for (i = 0; i < 6; i++) {
         double u = seams[i], last = -INFINITY;
@@ -488,7 +514,7 @@ int main(void)
         }
         test_accuracy_angle();
     } else {
-        tap_note("long double is no wider than double: the ulp checks are left out");
+        tap_ok(1, "errors in ulps # SKIP long double is no wider than double");
     }
     test_half_turns();
     test_odd();

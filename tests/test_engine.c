@@ -337,7 +337,8 @@ static void test_blocks(const problem *p, const result *expected, buffon_run run
             const double error = fabs(e[k].std_error / a->std_error - 1);
             worst = value > worst ? value : worst;
             worst = error > worst ? error : worst;
-            if (e[k].samples != a->samples || e[k].max != a->max || e[k].min != a->min)
+            if (e[k].samples != a->samples || !same_double(e[k].max, a->max) ||
+                !same_double(e[k].min, a->min))
                 worst = INFINITY;
         }
     }

@@ -286,6 +286,30 @@ static int over_rounds(const uint64_t *sum, uint64_t n, buffon_priv_wide w)
     return ((uint64_t)ldexp(fabs(w.m), 53) & 1) == 0;
 }
 
+/* 1 + 2^-53, a tie, and a bit far below that decides it: by both ways of finishing. */
+static void test_ties(void)
+{
+    uint64_t zero[BUFFON_STATS_SUM] = {0};
+    int even = 1, above = 1;
+    for (int e = -400; e < 400; e++) {
+        uint64_t sum[BUFFON_STATS_SUM] = {0}, squares[BUFFON_STATS_SQUARES] = {0};
+        buffon_priv_wide one = buffon_priv_wide_make(1.0, e);
+        buffon_priv_wide next = buffon_priv_wide_make(1.0 + 0x1p-52, e);
+        for (int part = 0; part < 2; part++) {
+            buffon_priv_sum_add(sum, part ? 0x1p-53 : 1.0, 1, e);
+            buffon_priv_squares_add(squares, part ? 0x1p-53 : 1.0, 1.0, 1, e);
+        }
+        even &= wide_same(buffon_priv_limbs_over(sum, BUFFON_STATS_SUM, 1, -1152), one);
+        even &= wide_same(buffon_priv_limbs_spread(squares, zero, zero, 1), one);
+        buffon_priv_sum_add(sum, 1.0, 1, e - 600);
+        buffon_priv_squares_add(squares, 1.0, 1.0, 1, e - 600);
+        above &= wide_same(buffon_priv_limbs_over(sum, BUFFON_STATS_SUM, 1, -1152), next);
+        above &= wide_same(buffon_priv_limbs_spread(squares, zero, zero, 1), next);
+    }
+    tap_ok(even, "a tie goes to even");
+    tap_ok(above, "unless a bit 600 places below says otherwise");
+}
+
 static void test_over(void)
 {
     int good = 1, small = 1, scaled = 1;
@@ -457,6 +481,7 @@ int main(void)
     test_values();
     test_merge();
     test_over();
+    test_ties();
     test_spread_naive();
     test_spread_small();
     test_wide_operations();

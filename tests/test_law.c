@@ -143,6 +143,8 @@ static uint64_t draw(uint64_t *count, const chart *c, const buffon_density *g, u
             /* The stated pdf at a grazing angle is as good as the point is. */
             bad += !c->inside(p, c) ||
                    !(fabs(pdf[i] - again[i]) <= 4 * DBL_EPSILON * (pdf[i] + (c->level != NULL)));
+            if (!(v[0] >= 0 && v[0] < 1.001 && v[1] >= 0 && v[1] <= 1))
+                return UINT64_MAX;
             const int a = (int)(v[0] * SIDE), b = (int)(v[1] * SIDE);
             count[(a < SIDE ? a : SIDE - 1) * SIDE + (b < SIDE ? b : SIDE - 1)]++;
             if (done + i < SHORT) {
@@ -393,8 +395,22 @@ static void check_inversions(void)
     check_line(&law, &g, 19);
 }
 
+/* The p-values themselves, against mpmath and the tables of the limit law. */
+static void check_p_values(void)
+{
+    tap_ok(fabs(law_chi_square(10, 5) - 0.07523524614651217) < 1e-14 &&
+               fabs(law_chi_square(1, 5) - 0.9625657732472964) < 1e-14 &&
+               fabs(law_chi_square(1400, 1023) / 3.16471980280305e-14 - 1) < 1e-10,
+           "chi-square tails");
+    tap_ok(fabs(law_kolmogorov(1.3580986393225505e-6, 1e12) - 0.05) < 1e-6 &&
+               fabs(law_kolmogorov(0.999999e-6, 1e12) - law_kolmogorov(1.000001e-6, 1e12)) < 1e-5,
+           "Kolmogorov tails");
+    tap_ok(fabs(law_normal(1.959963984540054) - 0.05) < 1e-15, "normal tails");
+}
+
 int main(void)
 {
+    check_p_values();
     check_box();
     check_disks();
     check_sphere_and_caps();

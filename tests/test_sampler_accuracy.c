@@ -7,6 +7,7 @@
 
 #include "../src/box.h"
 #include "../src/circle.h"
+#include "grid.h"
 #include "tap.h"
 
 typedef long double wide;
@@ -49,24 +50,6 @@ static void circle(wide *c, wide *s, double t)
     const int k = (int)quarters & 3;
     *c = k == 0 ? cosine : k == 1 ? -sine : k == 2 ? -cosine : sine;
     *s = k == 0 ? sine : k == 1 ? cosine : k == 2 ? -sine : -cosine;
-}
-
-/* Uniforms of the generator's grid, every fourth one drawn towards an end, and the ends themselves. */
-static double grid(buffon_rng *rng, int k)
-{
-    const double u = buffon_rng_next(rng);
-    if (k < 4)
-        return k & 1 ? 1 - 0x1p-53 : 0x1p-53;
-    if (k % 4)
-        return u;
-    const double small = floor(ldexp(u, (int)buffon_rng_below(rng, 52))) + 0.5;
-    return k % 8 ? ldexp(small, -52) : 1 - ldexp(small, -52);
-}
-
-static void grid_pair(double u[2], buffon_rng *rng, int k)
-{
-    u[0] = grid(rng, k);
-    u[1] = grid(rng, k / 2);
 }
 
 /* In [2^-k, 2^(1-k)) with k below `range`. */
@@ -154,7 +137,8 @@ static void test_sphere(void)
     report(&pole, 0.5, "sphere, z and pdf");
 }
 
-/* A cap of height h about +z: x, y and depth at every size, from the h and 2 - h that it was given. */
+/* A cap of height h about +z: x, y and depth at every size, from the h and 2 - h that it was given.
+ * */
 static void see_cap(worst *across, worst *height, worst *area, const buffon_density *g, wide h,
                     buffon_rng *rng, int k)
 {
@@ -213,7 +197,8 @@ static void test_turned(void)
         if (k % 2)
             axis[2] = -fabs(axis[2]);
         const double h = ldexp(1 + buffon_rng_next(&rng), -(k % 100));
-        const buffon_density g[2] = {buffon_cap_height(h, axis), buffon_hemisphere_cosine_about(axis)};
+        const buffon_density g[2] = {buffon_cap_height(h, axis),
+                                     buffon_hemisphere_cosine_about(axis)};
         double u[2];
         grid_pair(u, &rng, k);
         for (int m = 0; m < 2; m++) {
@@ -347,172 +332,6 @@ static void test_boxes(void)
     report(&volume, 1, "box of dim coordinates, pdf / (dim + 1)");
 }
 
-/* CDFs of every temper. F crosses u, as computed, within 4 ulp of x. */
-static int calls;
-
-static double cauchy_cdf(double x, void *scale)
-{
-    calls++;
-    return x < 0 ? atan(-*(double *)scale / x) / 3.14159265358979323846
-                 : 0.5 + atan(x / *(double *)scale) / 3.14159265358979323846;
-}
-
-static double cauchy_pdf(double x, void *scale)
-{
-    const double c = *(double *)scale;
-    return 1 / (3.14159265358979323846 * c * (1 + x / c * (x / c)));
-}
-
-static double normal_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    calls++;
-    return 0.5 * erfc(-x * 0.70710678118654752440);
-}
-
-static double normal_pdf(double x, void *ctx)
-{
-    (void)ctx;
-    return 0.39894228040143267794 * exp(-0.5 * x * x);
-}
-
-static double exponential_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    calls++;
-    return -expm1(-x);
-}
-
-static double exponential_pdf(double x, void *ctx)
-{
-    (void)ctx;
-    return exp(-x);
-}
-
-static double root_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    calls++;
-    return sqrt(x);
-}
-
-static double root_pdf(double x, void *ctx)
-{
-    (void)ctx;
-    return 0.5 / sqrt(x);
-}
-
-static double power_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    calls++;
-    return pow(x, 20);
-}
-
-static double power_pdf(double x, void *ctx)
-{
-    (void)ctx;
-    return 20 * pow(x, 19);
-}
-
-/* Two plateaus of density with nothing between 1 and 9. */
-static double gap_cdf(double x, void *ctx)
-{
-    (void)ctx;
-    calls++;
-    return x < 1 ? 0.5 * x : x < 9 ? 0.5 : 0.5 + 0.5 * (x - 9);
-}
-
-static double gap_pdf(double x, void *ctx)
-{
-    (void)ctx;
-    return x < 1 || x > 9 ? 0.5 : 0;
-}
-
-/* A pdf that lies: the CDF alone must lead to the root. */
-static double lying_pdf(double x, void *ctx)
-{
-    (void)ctx;
-    return 1e12 + x;
-}
-
-static int crosses(const buffon_inversion *how, double x, double u)
-{
-    const double far = 0x1p-50 * fabs(x);
-    return how->cdf(x - far, how->ctx) <= u && how->cdf(x + far, how->ctx) >= u;
-}
-
-static void test_newton(void)
-{
-    double tiny = 1e-200, one = 1, huge = 1e200;
-    const struct {
-        const char *name;
-        buffon_inversion how;
-    } law[] = {
-        {"Cauchy", {.cdf = cauchy_cdf, .pdf = cauchy_pdf, .ctx = &one}},
-        {"Cauchy of scale 1e-200", {.cdf = cauchy_cdf, .pdf = cauchy_pdf, .ctx = &tiny}},
-        {"Cauchy of scale 1e200", {.cdf = cauchy_cdf, .pdf = cauchy_pdf, .ctx = &huge}},
-        {"normal", {.cdf = normal_cdf, .pdf = normal_pdf}},
-        {"normal on a finite support", {.cdf = normal_cdf, .pdf = normal_pdf, .lo = -1e5, .hi = 1e6}},
-        {"exponential", {.cdf = exponential_cdf, .pdf = exponential_pdf, .lo = 0, .hi = INFINITY}},
-        {"infinite pdf at 0", {.cdf = root_cdf, .pdf = root_pdf, .lo = 0, .hi = 1}},
-        {"power of 20", {.cdf = power_cdf, .pdf = power_pdf, .lo = 0, .hi = 1}},
-        {"gap", {.cdf = gap_cdf, .pdf = gap_pdf, .lo = 0, .hi = 10}},
-        {"normal with a false pdf", {.cdf = normal_cdf, .pdf = lying_pdf}},
-    };
-    buffon_rng rng = buffon_rng_make(10, 22);
-    for (size_t k = 0; k < sizeof law / sizeof *law; k++) {
-        int good = 1, most = 0, total = 0;
-        for (int i = 0; i < 4000; i++) {
-            const double u = i == 4 ? 0.5 : grid(&rng, i);
-            double x;
-            calls = 0;
-            good &= buffon_inverse_sample(&x, NULL, u, &law[k].how) == BUFFON_OK;
-            most = calls > most ? calls : most;
-            total += calls;
-            good &= crosses(&law[k].how, x, u);
-        }
-        tap_ok(good && most <= 320, "inverse CDF, %s: F crosses u within 4 ulp of x", law[k].name);
-        tap_note("%.1f calls of the CDF on average, %d at most", total / 4000.0, most);
-    }
-}
-
-static void test_table(void)
-{
-    static double knot[1001], F[1001];
-    double error = 0, back = 0;
-    buffon_rng rng = buffon_rng_make(11, 22);
-    knot[0] = F[0] = -3;
-    for (int k = 1; k <= 1000; k++) {
-        knot[k] = knot[k - 1] + ldexp(buffon_rng_next(&rng), -(k % 20));
-        F[k] = F[k - 1] + ldexp(buffon_rng_next(&rng), -(k % 17));
-    }
-    const buffon_inversion how = {.x = knot, .F = F, .count = 1001};
-    const buffon_density g = buffon_inverse(&how);
-    for (int i = 0; i < DRAWS; i++) {
-        const double u = grid(&rng, i);
-        double x, v;
-        int k = 0;
-        if (buffon_density_sample(&x, NULL, &u, 1, &g) != BUFFON_OK ||
-            buffon_density_invert(&v, &x, 1, &g) != BUFFON_OK)
-            error = INFINITY;
-        for (int step = 512; step; step /= 2)
-            k += k + step < 1000 && knot[k + step] <= x ? step : 0;
-        const wide part = ((wide)x - knot[k]) / ((wide)knot[k + 1] - knot[k]);
-        const wide level = (((wide)F[k] - F[0]) + part * ((wide)F[k + 1] - F[k])) /
-                           ((wide)F[1000] - F[0]);
-        /* What an ulp of x is worth, where the pdf is steep. */
-        const double grain = (double)((F[k + 1] - F[k]) / (knot[k + 1] - knot[k]) /
-                                      (F[1000] - F[0])) * ulp(x);
-        error = fmax(error, fabs((double)(level - u)) / (DBL_EPSILON + grain));
-        back = fmax(back, fabs(u - v) / (DBL_EPSILON + grain));
-    }
-    tap_ok(error <= 2, "table: F(x) is u within 2 ulp of 1 and of x");
-    tap_note("up to %.3f", error);
-    tap_ok(back <= 4, "table: back to u within 4 of them");
-    tap_note("up to %.3f", back);
-}
-
 int main(void)
 {
 #if LDBL_MANT_DIG < 64
@@ -528,7 +347,5 @@ int main(void)
     test_cosine();
     test_seen();
     test_boxes();
-    test_newton();
-    test_table();
     return tap_done();
 }

@@ -395,6 +395,13 @@ static void test_weights(void)
     got = buffon_stats_summary(&s);
     tap_ok(close_to(got.ess, 1.0, 1e-15) && close_to(got.max_share, 1.0, 1e-15),
            "one weight rules");
+    for (size_t i = 0; i < 1000; i++)
+        data[i] = -data[i];
+    s = add_all(data, 1000);
+    tap_ok(buffon_stats_summary(&s).max_share == got.max_share, "shares are positive");
+    memset(s.squares, 0, sizeof s.squares);
+    got = buffon_stats_summary(&s);
+    tap_ok(got.variance == 0.0 && got.std_error == 0.0, "no variance is negative");
 }
 
 int main(void)

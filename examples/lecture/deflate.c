@@ -1,5 +1,5 @@
-/* Deflate (RFC 1951): repeats are replaced by (length, distance), then every symbol by a prefix code
- * made for this very data. One block with dynamic codes; simple before small. */
+/* Deflate (RFC 1951): repeats are replaced by (length, distance), then every symbol by a prefix
+ * code made for this very data. One block with dynamic codes; simple before small. */
 #include "png.h"
 
 #include <stdint.h>
@@ -91,7 +91,9 @@ static size_t deflate_tokens(deflate_token *token, const unsigned char *in, size
         size_t longest = 0, distance = 0;
         size_t most = n - i < DEFLATE_LONGEST ? n - i : DEFLATE_LONGEST;
         size_t at = most >= 3 ? head[deflate_hash(in + i)] : 0;
-        for (int tries = 0; at > 0 && i - (at - 1) < DEFLATE_WINDOW && tries < DEFLATE_TRIES; tries++) {
+        for (int tries = 0; tries < DEFLATE_TRIES; tries++) {
+            if (at == 0 || i - (at - 1) >= DEFLATE_WINDOW)
+                break;
             size_t same = 0;
             while (same < most && in[at - 1 + same] == in[i + same])
                 same++;
@@ -173,8 +175,8 @@ static void deflate_make_code(deflate_code *code, const uint32_t *frequency, int
             }
 }
 
-/* Both codes' lengths, themselves sent by a code (without its run lengths: a page has other bytes to
- * save). */
+/* Both codes' lengths, themselves sent by a code (without its run lengths: a page has other bytes
+ * to save). */
 static void deflate_send_codes(deflate_bits *b, const deflate_code *literal,
                                const deflate_code *distance)
 {

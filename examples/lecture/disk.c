@@ -53,7 +53,7 @@ static void draw_staircase(text *out, const buffon_inversion *how)
         F[i] = curve_cdf(x[i], NULL);
     }
     panel_line(&p, "exact", x, F, STEPS + 1);
-    panel_text(&p, "halo middle", 1.55, curve_cdf(1.55, NULL), 0, -12, "F (x)");
+    panel_text(&p, "halo middle", 2.3, curve_cdf(2.3, NULL), 0, 24, "F (x)");
     panel_end(&p);
     text_put(out, "</div>");
 }
@@ -61,16 +61,18 @@ static void draw_staircase(text *out, const buffon_inversion *how)
 static void draw_inverted(text *out, const buffon_density *g, size_t n)
 {
     enum { STEPS = 150 };
+    char count[STORY_COUNT];
     double at[STEPS + 1], pdf[STEPS + 1], *u = need_memory(2 * n * sizeof *u), *x = u + n;
     buffon_rng rng = buffon_rng_make(1777, 7);
-    ruler across = {.lo = 0, .hi = CURVE_END, .label = "x"}, up = {.lo = 0, .hi = 1.25, .label = "density"};
+    ruler across = {.lo = 0, .hi = CURVE_END, .label = "x"};
+    ruler up = {.lo = 0, .hi = 1.25, .label = "density"};
     buffon_rng_fill(u, n, &rng);
     story_check(buffon_density_sample(x, NULL, u, n, g), "inverse CDF");
     for (int i = 0; i <= STEPS; i++) {
         at[i] = CURVE_END * i / STEPS;
         pdf[i] = curve_pdf(at[i], NULL);
     }
-    text_add(out, "<div><p>%zu samples and their density</p>", n);
+    text_add(out, "<div><p>%s samples and their density</p>", story_count(count, n));
     panel p = panel_begin(out, 430, 320, across, up, "A histogram of samples and their density");
     panel_histogram(&p, "c2", x, n, 0, CURVE_END, 60);
     panel_line(&p, "exact", at, pdf, STEPS + 1);
@@ -93,17 +95,18 @@ static void tell_inverse(story *s)
     story_share(s, 0.1, 0.6);
     story_check(buffon_inverse_cdf(&shaped, &f, &how, &run), "inverse CDF");
 
-    story_section(s, "The inverse CDF", "X = F<sup>&#8722;1</sup>(u) is distributed as g, because P(X "
-                  "&le; x) = P(u &le; F(x)) = F(x).");
-    story_prose(s, "How does one get samples of <i>g</i> at all? Let <i>F</i>(<i>x</i>) be the area "
-                "under <i>g</i> to the left of <i>x</i>: it climbs from 0 to 1, steeply where <i>g</i> "
-                "is large. Draw <i>u</i> uniformly on the axis of <i>F</i> and look up which <i>x</i> "
-                "it belongs to: steep stretches catch many <i>u</i>, flat ones few. Often "
-                "<i>F</i><sup>&minus;1</sup> is a formula. Where it is not, as for the curve of the "
-                "first sections, the library finds it from <i>F</i> and <i>g</i> by Newton&#8217;s "
-                "method, kept inside a bracket so that it cannot go astray.");
-    story_formula(s, "<i>F</i>(<i>x</i>) = " INTEGRAL("&minus;&infin;", "<i>x</i>") " <i>g</i>(<i>t</i>) "
-                  "d<i>t</i>, &#8195; <i>X</i> = <i>F</i><sup>&minus;1</sup>(<i>u</i>)");
+    story_section(s, "The inverse CDF", "X = F<sup>&#8722;1</sup>(u) is distributed as g, because "
+                  "P(X &le; x) = P(u &le; F(x)) = F(x).");
+    story_prose(s, "How does one get samples of <i>g</i> at all? Let <i>F</i>(<i>x</i>) be the "
+                "area under <i>g</i> to the left of <i>x</i>: it climbs from 0 to 1, steeply where "
+                "<i>g</i> is large. Draw <i>u</i> uniformly on the axis of <i>F</i> and look up "
+                "which <i>x</i> it belongs to: steep stretches catch many <i>u</i>, flat ones few. "
+                "Often <i>F</i><sup>&minus;1</sup> is a formula. Where it is not, as for the curve "
+                "of the first sections, the library finds it from <i>F</i> and <i>g</i> by "
+                "Newton&#8217;s method, kept inside a bracket so that it cannot go astray.");
+    story_formula(s, "<i>F</i>(<i>x</i>) = " INTEGRAL("&minus;&infin;", "<i>x</i>")
+                  " <i>g</i>(<i>t</i>) d<i>t</i>, &#8195; "
+                  "<i>X</i> = <i>F</i><sup>&minus;1</sup>(<i>u</i>)");
     story_code(s, "buffon_inversion how = {.cdf = F, .pdf = g, .lo = 0, .hi = 3};\n"
                "status = buffon_inverse_sample(&x, NULL, 0.5, &how); /* the median */\n"
                "status = buffon_inverse_cdf(&e, &f, &how, NULL);     /* integrates f by f/g */");
@@ -147,8 +150,8 @@ static void draw_cell(panel *p, void (*map)(double x[2], double u1, double u2), 
 
 /* The unit square's chequers and jittered points, on the disk. Returns the share of points in the
  * inner half, r < 1/2. */
-static double draw_disk(text *out, void (*map)(double x[2], double u1, double u2), const char *class,
-                        const char *title)
+static double draw_disk(text *out, void (*map)(double x[2], double u1, double u2),
+                        const char *class, const char *title)
 {
     enum { POINTS = 4 * CELLS * CELLS };
     static const double lo[] = {0, 0}, hi[] = {1, 1};
@@ -202,24 +205,27 @@ static void tell_round(story *s)
     buffon_points jitter = buffon_points_jitter(256);
     story_section(s, "The disk", "Radius by inverse CDF, angle uniform.");
     story_prose(s, "A disk of radius <i>r</i> has the share <i>r</i>&sup2; of the area of the unit "
-                "disk: that is the CDF of the radius, and its inverse is a square root. Leaving the "
-                "root out looks right and is wrong: half of the points then fall within half the "
-                "radius, which holds a quarter of the area. A second map takes squares about the "
-                "centre to circles. It is uniform too, and keeps neighbours together: cells of the "
-                "square stay compact instead of becoming slivers, which pays as soon as the points "
-                "are not purely random but stratified.");
+                "disk: that is the CDF of the radius, and its inverse is a square root. Leaving "
+                "the root out looks right and is wrong: half of the points then fall within half "
+                "the radius, which holds a quarter of the area. A second map takes squares about "
+                "the centre to circles. It is uniform too, and keeps neighbours together: cells of "
+                "the square stay compact instead of becoming slivers, which pays as soon as the "
+                "points are not purely random but stratified.");
     story_formula(s, "<i>F</i>(<i>r</i>) = <i>r</i>&sup2;, &#8195; <i>r</i> = "
-                  "&radic;<i>u</i><sub>1</sub>, &#8195; <i>&theta;</i> = 2&pi;<i>u</i><sub>2</sub>");
+                  "&radic;<i>u</i><sub>1</sub>, &#8195; <i>&theta;</i> = "
+                  "2&pi;<i>u</i><sub>2</sub>");
     story_code(s, "buffon_density polar = buffon_disk(1), concentric = buffon_disk_concentric(1);\n"
                "buffon_points jitter = buffon_points_jitter(256); /* 256 x 256 cells */\n"
-               "status = buffon_importance(&e, &f, &concentric, &(buffon_run){.points = &jitter});");
+               "buffon_run run = {.points = &jitter};\n"
+               "status = buffon_importance(&e, &f, &concentric, &run);");
     text *out = story_figure(s, "three");
     double wrong = draw_disk(out, map_wrong, "c2", "Wrong: r = u<sub>1</sub>");
     double right = draw_disk(out, buffon_disk_sample, "c1", "Polar: r = &radic;u<sub>1</sub>");
     draw_disk(out, buffon_disk_sample_concentric, "c3", "Concentric");
-    story_caption(s, "The chequered unit square, with four random points in each of its %d cells, on the "
-                  "disk. Within half the radius lie %.0f&#8201;%% of the points on the left, and "
-                  "%.0f&#8201;%% in the middle, as it should be.", (int)CELLS * CELLS, 100 * wrong,
+    story_caption(s, "The chequered unit square, with four random points in each of its %d cells, "
+                  "on the disk. Within half the radius lie %.0f&#8201;%% of the points on the "
+                  "left, and %.0f&#8201;%% in the middle, as it should "
+                  "be.", (int)CELLS * CELLS, 100 * wrong,
                   100 * right);
     story_share(s, 0.6, 1);
     sample_disk(s, &polar, NULL, "disk, polar");

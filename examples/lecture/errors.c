@@ -68,7 +68,8 @@ enum { SIZES = 8 };
 static void measure_errors(story *s, double rms[METHODS][SIZES], double stated[METHODS][SIZES],
                            int repeats)
 {
-    double exact = (exp(1) - 1) * (exp(1) - 1);
+    double exact = (exp(1) - 1) * (exp(1) - 1), done = 0;
+    double whole = METHODS * repeats * 8 * (pow(4, SIZES) - 1) / 3;
     for (int j = 0; j < SIZES; j++) {
         uint64_t k = UINT64_C(2) << j, n = 2 * k * k;
         for (int m = 0; m < METHODS; m++) {
@@ -78,8 +79,8 @@ static void measure_errors(story *s, double rms[METHODS][SIZES], double stated[M
                 buffon_estimate e = grow(m, k, run);
                 square += (e.value - exact) * (e.value - exact) / repeats;
                 variance += e.std_error * e.std_error / repeats;
-                story_progress(s, j < 4 ? 0.01 * j
-                                        : pow(4, j - SIZES + 1) * (0.25 + 0.75 * (m + 1) / METHODS));
+                done += (double)n;
+                story_progress(s, done / whole);
             }
             rms[m][j] = sqrt(square);
             stated[m][j] = sqrt(variance);
@@ -115,33 +116,35 @@ static void draw_errors(text *out, double rms[METHODS][SIZES], double stated[MET
 
 static void tell_convergence(story *s)
 {
-    enum { REPEATS = 64 };
+    enum { REPEATS = 100 };
     static const char *name[] = {"rejection", "uniform", "antithetic", "importance, product",
                                  "jitter, 512 x 512"};
     double rms[METHODS][SIZES], stated[METHODS][SIZES], exact = (exp(1) - 1) * (exp(1) - 1);
     story_share(s, 0, 0.7);
     measure_errors(s, rms, stated, REPEATS);
-    story_section(s, "How the error falls", "Four times the samples for half the error; better points "
-                  "and better densities begin lower, and some fall faster.");
+    story_section(s, "How the error falls", "Four times the samples for half the error; better "
+                  "points and better densities begin lower, and some fall faster.");
     story_prose(s, "All that has been said, in one picture: e<sup><i>x</i>+<i>y</i></sup> over the "
-                "unit square by five methods. Hit-or-miss is above the plain average, a density that "
-                "resembles <i>f</i> far below it, and all three fall as 1/&radic;<i>N</i>. "
-                "<em>Antithetic</em> points come in mirrored pairs <i>u</i>, 1 &minus; <i>u</i>, whose "
-                "errors cancel in part. <em>Jittered</em> points, two in each of <i>N</i>/2 cells, "
-                "are the only ones that fall faster: where the integrand is smooth it hardly varies "
-                "within a cell, and in two dimensions that gains another factor 1/&radic;<i>N</i>.");
+                "unit square by five methods. Hit-or-miss is above the plain average, a density "
+                "that resembles <i>f</i> far below it, and all three fall as 1/&radic;<i>N</i>. "
+                "<em>Antithetic</em> points come in mirrored pairs <i>u</i>, 1 &minus; <i>u</i>, "
+                "whose errors cancel in part. <em>Jittered</em> points, two in each of <i>N</i>/2 "
+                "cells, are the only ones that fall faster: where the integrand is smooth it "
+                "hardly varies within a cell, and in two dimensions that gains another factor "
+                "1/&radic;<i>N</i>.");
     story_formula(s, "error = " FRAC("<i>&sigma;</i>", "&radic;<i>N</i>") " &#8195; (jittered in "
                   "<i>d</i> dimensions: ~ <i>N</i><sup>&minus;1/2 &minus; 1/<i>d</i></sup>)");
     story_code(s, "buffon_points antithetic = buffon_points_antithetic();\n"
                "buffon_points jitter = buffon_points_jitter(k); /* k x k cells */\n"
-               "buffon_density lines[] = {line, line}, plane = buffon_density_product(lines, 2);\n\n"
+               "buffon_density lines[] = {line, line};\n"
+               "buffon_density plane = buffon_density_product(lines, 2);\n\n"
                "status = buffon_uniform(&e, &f, lo, hi, &(buffon_run){.points = &antithetic});\n"
                "status = buffon_uniform(&e, &f, lo, hi, &(buffon_run){.points = &jitter});\n"
                "status = buffon_importance(&e, &f, &plane, NULL);");
     draw_errors(story_figure(s, "one"), rms, stated, REPEATS);
     story_caption(s, "Dots with bars: the true error, root mean square over %d runs of each size. "
-                  "Lines: the standard error that those runs themselves stated. The dots lie on the "
-                  "lines: the error bars can be believed.", (int)REPEATS);
+                  "Lines: the standard error that those runs themselves stated. The dots lie on "
+                  "the lines, so the error bars can be believed.", (int)REPEATS);
     for (int m = 0; m < METHODS; m++) {
         story_share(s, 0.7 + 0.04 * m, 0.74 + 0.04 * m);
         buffon_estimate e = grow(m, 512, story_run(s, 1 << 20));
@@ -155,17 +158,18 @@ static void tell_convergence(story *s)
 static void tell_coverage(story *s)
 {
     enum { SHOWN = 200, RUNS = 20000 };
+    char runs[STORY_COUNT];
     double lo = 0, hi = CURVE_END, exact = curve_integral(CURVE_END);
     buffon_integrand f = {.scalar = curve, .dim = 1};
     uint64_t covered = 0;
     int missed = 0;
     double low, high;
-    story_section(s, "How often the interval is right", "A 95&#8201;% interval is a promise about many "
-                  "runs: one in twenty may miss, and should.");
+    story_section(s, "How often the interval is right", "A 95&#8201;% interval is a promise about "
+                  "many runs: one in twenty may miss, and should.");
     story_prose(s, "An interval is not a guarantee. It is a recipe that, used again and again, "
-                "contains the truth as often as it says. That can be tested like anything else: run "
-                "the estimate many times and count. Too many misses would mean error bars that lie; "
-                "too few would mean that samples were wasted.");
+                "contains the truth as often as it says. That can be tested like anything else: "
+                "run the estimate many times and count. Too many misses would mean error bars that "
+                "lie; too few would mean that samples were wasted.");
     story_formula(s, "P(<i>&alpha;</i> &isin; [lo, hi]) = 0.95, &#8195; lo, hi = estimate &#8723; "
                   "<i>t</i> &#183; standard error");
     story_code(s, "for (i = 0; i < 20000; i++) {\n"
@@ -195,10 +199,10 @@ static void tell_coverage(story *s)
     panel_end(&p);
     story_check(buffon_interval_clopper_pearson(&low, &high, covered, RUNS, 0.95), "coverage");
     story_caption(s, "%d runs of 100 samples each: the area under the curve of the first sections "
-                  "(line), their 95&#8201;%% intervals, and the %d that miss (orange), where 10 are "
-                  "to be expected. Of %d such runs %.2f&#8201;%% cover the truth, which puts the "
-                  "real coverage between %.2f&#8201;%% and %.2f&#8201;%%.", (int)SHOWN, missed,
-                  (int)RUNS, 100.0 * (double)covered / RUNS, 100 * low, 100 * high);
+                  "(line), their 95&#8201;%% intervals, and the %d that miss (orange), where 10 "
+                  "are to be expected. Of %s such runs %.2f&#8201;%% cover the truth, which puts "
+                  "the real coverage between %.2f&#8201;%% and %.2f&#8201;%%.", (int)SHOWN, missed,
+                  story_count(runs, RUNS), 100.0 * (double)covered / RUNS, 100 * low, 100 * high);
 }
 
 void tell_errors(story *s)

@@ -90,10 +90,10 @@ static void panel_ticks(panel *p, int vertical)
 panel panel_begin(text *out, double width, double height, ruler x, ruler y, const char *alt)
 {
     panel p = {.out = out, .width = width, .height = height, .x = x, .y = y};
-    p.left = y.label != NULL ? (y.no_ticks ? 30 : 62) : (y.no_ticks ? 10 : 44);
+    p.left = y.label != NULL ? (y.no_ticks ? 30 : 62) : (!y.no_ticks ? 44 : x.no_ticks ? 10 : 22);
     p.right = width - 14;
     p.top = 10;
-    p.bottom = height - (x.label != NULL ? (x.no_ticks ? 24 : 44) : (x.no_ticks ? 8 : 24));
+    p.bottom = height - (x.label != NULL ? 44 : x.no_ticks ? 8 : 24);
     text_add(out, "<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"%s\">", width, height, alt);
     panel_ticks(&p, 0);
     panel_ticks(&p, 1);
@@ -128,7 +128,8 @@ void panel_line(panel *p, const char *class, const double *x, const double *y, s
     text_put(p->out, "\"/>");
 }
 
-void panel_area(panel *p, const char *class, const double *x, const double *y, size_t n, double base)
+void panel_area(panel *p, const char *class, const double *x, const double *y, size_t n,
+                double base)
 {
     if (n == 0)
         return;
@@ -138,7 +139,8 @@ void panel_area(panel *p, const char *class, const double *x, const double *y, s
              panel_x(p, x[0]));
 }
 
-void panel_dots(panel *p, const char *class, double size, const double *x, const double *y, size_t n)
+void panel_dots(panel *p, const char *class, double size, const double *x, const double *y,
+                size_t n)
 {
     size_t drawn = 0;
     for (size_t i = 0; i < n; i++) {
@@ -184,32 +186,37 @@ void panel_text(panel *p, const char *class, double x, double y, double dx, doub
 void figure_lollipops(text *out, ruler x, const lollipop *stick, size_t n, const char *alt)
 {
     ruler y = {.lo = (double)n, .hi = 0, .no_ticks = 1};
-    panel p = panel_begin(out, 860, 58 + 46 * (double)n, x, y, alt);
+    panel p = panel_begin(out, 860, 60 + 50 * (double)n, x, y, alt);
     for (size_t i = 0; i < n; i++) {
         double row = (double)i + 0.68;
         int shown = stick[i].value > x.lo;
         double value = shown ? stick[i].value : x.lo;
-        panel_segment(&p, stick[i].class, x.lo, row, value, row);
-        if (shown)
+        if (shown) {
+            panel_segment(&p, stick[i].class, x.lo, row, value, row);
             panel_dots(&p, stick[i].class, 11, &value, &row, 1);
-        if (stick[i].expected > x.lo)
-            panel_segment(&p, "exact", stick[i].expected, row - 0.22, stick[i].expected, row + 0.22);
+        }
+        double expected = stick[i].expected;
+        if (expected > x.lo)
+            panel_segment(&p, "exact", expected, row - 0.22, expected, row + 0.22);
         panel_text(&p, "halo", x.lo, row, 8, -9, "%s", stick[i].name);
-        panel_text(&p, "halo bold", fmax(value, stick[i].expected), row, 12, 4, "%s", stick[i].note);
+        panel_text(&p, "halo bold", fmax(value, expected), row, 12, 4, "%s", stick[i].note);
     }
     panel_end(&p);
 }
 
-void panel_histogram(panel *p, const char *class, const double *value, size_t n, double lo, double hi,
-                     size_t bins)
+void panel_histogram(panel *p, const char *class, const double *value, size_t n, double lo,
+                     double hi, size_t bins)
 {
     double width = (hi - lo) / (double)bins;
+    text_add(p->out, "<path class=\"area %s\" d=\"M%.1f %.1f", class, panel_x(p, lo),
+             panel_y(p, 0));
     for (size_t b = 0; b < bins; b++) {
         size_t count = 0;
         double from = lo + (double)b * width, to = lo + (double)(b + 1) * width;
         for (size_t i = 0; i < n; i++)
             count += value[i] >= from && value[i] < to;
-        if (count > 0)
-            panel_rectangle(p, class, from, 0, to, (double)count / (double)n / width);
+        text_add(p->out, "V%.1fH%.1f", panel_y(p, (double)count / (double)n / width),
+                 panel_x(p, to));
     }
+    text_add(p->out, "V%.1fZ\"/>", panel_y(p, 0));
 }

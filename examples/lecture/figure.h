@@ -22,7 +22,7 @@ typedef struct panel {
     ruler x, y;
 } panel;
 
-/* Starts a drawing `width` by `height` with its frame, ticks and labels. `alt` says what it shows. */
+/* Starts a drawing `width` by `height` with its frame, ticks and labels. `alt` says what it is. */
 panel panel_begin(text *out, double width, double height, ruler x, ruler y, const char *alt);
 void panel_end(panel *p);
 
@@ -32,17 +32,19 @@ double panel_y(const panel *p, double y);
 
 void panel_line(panel *p, const char *class, const double *x, const double *y, size_t n);
 /* Between the curve and y = base. */
-void panel_area(panel *p, const char *class, const double *x, const double *y, size_t n, double base);
+void panel_area(panel *p, const char *class, const double *x, const double *y, size_t n,
+                double base);
 /* Round dots of `size` pixels; those outside the axes are left out. */
-void panel_dots(panel *p, const char *class, double size, const double *x, const double *y, size_t n);
+void panel_dots(panel *p, const char *class, double size, const double *x, const double *y,
+                size_t n);
 void panel_segment(panel *p, const char *class, double x0, double y0, double x1, double y1);
 void panel_rectangle(panel *p, const char *class, double x0, double y0, double x1, double y1);
 /* Text at a point of the axes, moved by (dx, dy) pixels. class: start, middle, end. */
 void panel_text(panel *p, const char *class, double x, double y, double dx, double dy,
                 const char *format, ...) TEXT_PRINTF(7, 8);
 /* Bars of counts, normalised to unit area over the n values (those outside lo .. hi count too). */
-void panel_histogram(panel *p, const char *class, const double *value, size_t n, double lo, double hi,
-                     size_t bins);
+void panel_histogram(panel *p, const char *class, const double *value, size_t n, double lo,
+                     double hi, size_t bins);
 
 /* A chart of one value for each of several things, with a mark where it was expected. */
 typedef struct lollipop {

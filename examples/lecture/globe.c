@@ -45,9 +45,12 @@ globe globe_begin(text *out, double size, double above, double around, int hemis
 {
     static const double pole[3] = {0, 0, 1};
     globe g = globe_eye(out, size, size / 2 - 14, above, around);
-    if (hemisphere)
+    if (hemisphere) {
+        g.y = g.radius + (above < 60 && size > 400 ? 40 : 14); /* room for the normal */
         g.height = g.y + g.radius * g.towards[2] + 14;
-    text_add(out, "<svg viewBox=\"0 0 %g %.0f\" role=\"img\" aria-label=\"%s\">", size, g.height, alt);
+    }
+    text_add(out, "<svg viewBox=\"0 0 %g %.0f\" role=\"img\" aria-label=\"%s\">", size, g.height,
+             alt);
     if (hemisphere) {
         for (int k = 1; k < 3; k++)
             globe_circle(&g, "wire", pole, sin(k * GLOBE_PI / 6));
@@ -150,6 +153,6 @@ void globe_text(globe *g, const char *class, const double at[3], double dx, doub
 {
     double x, y;
     globe_project(g, at, &x, &y);
-    text_add(g->out, "<text class=\"note %s\" x=\"%.1f\" y=\"%.1f\">%s</text>", class, x + dx, y + dy,
-             what);
+    text_add(g->out, "<text class=\"note %s\" x=\"%.1f\" y=\"%.1f\">%s</text>", class, x + dx,
+             y + dy, what);
 }

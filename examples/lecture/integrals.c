@@ -17,7 +17,8 @@ static const double needle_lo[] = {0, 0}, needle_hi[] = {PI / 2, 0.5};
 /* The first needles of the run. Angle and distance decide; place and side are for the eye. */
 static int draw_needles(text *out, const buffon_density *throw, const buffon_run *run, int needles)
 {
-    ruler across = {.lo = 0, .hi = 12, .no_ticks = 1}, along = {.lo = -0.6, .hi = 3.6, .no_ticks = 1};
+    ruler across = {.lo = 0, .hi = 12, .no_ticks = 1};
+    ruler along = {.lo = -0.6, .hi = 3.6, .no_ticks = 1};
     panel p = panel_begin(out, 860, 305, across, along, "Needles thrown on a floor of boards");
     buffon_rng rng = buffon_rng_make(1777, 1);
     int crossing = 0;
@@ -43,6 +44,7 @@ static int draw_needles(text *out, const buffon_density *throw, const buffon_run
 static void tell_needle(story *s)
 {
     enum { SHOWN = 150 };
+    char count[STORY_COUNT];
     buffon_density throw = buffon_box(needle_lo, needle_hi, 2);
     buffon_integrand f = {.scalar = crosses, .dim = 2};
     buffon_run run = story_run(s, 1 << 22);
@@ -53,13 +55,13 @@ static void tell_needle(story *s)
     story_section(s, "The Monte Carlo algorithm: Buffon&#8217;s needle",
                   "Devise a random variable whose mean is the solution; generate samples; collect "
                   "statistics.");
-    story_prose(s, "In 1777 the Comte de Buffon asked how often a needle thrown on a floor of boards "
-                "comes to lie across a joint. If the needle is as long as a board is wide, it lies "
-                "at some angle <i>&theta;</i>, its middle at some distance <i>y</i> from the nearest "
-                "joint, and it crosses when <i>y</i> &le; &frac12; sin <i>&theta;</i>. Averaged over "
-                "all throws that happens with probability 2/&pi;. So a floor and a needle compute "
-                "&pi;: the random variable is <q>1 if it crosses, else 0</q>, its mean is the "
-                "solution, and throwing is sampling.");
+    story_prose(s, "In 1777 the Comte de Buffon asked how often a needle thrown on a floor of "
+                "boards comes to lie across a joint. If the needle is as long as a board is wide, "
+                "it lies at some angle <i>&theta;</i>, its middle at some distance <i>y</i> from "
+                "the nearest joint, and it crosses when <i>y</i> &le; &frac12; sin <i>&theta;</i>. "
+                "Averaged over all throws that happens with probability 2/&pi;. So a floor and a "
+                "needle compute &pi;: the random variable is <q>1 if it crosses, else 0</q>, its "
+                "mean is the solution, and throwing is sampling.");
     story_formula(s, "P(cross) = " FRAC("2", "&pi;") INTEGRAL("0", "&pi;/2") " sin <i>&theta;</i> "
                   "d<i>&theta;</i> = " FRAC("2", "&pi;") " &asymp; " FRAC("needles that cross",
                   "needles thrown"));
@@ -73,9 +75,9 @@ static void tell_needle(story *s)
                "status = buffon_expectation(&e, &f, &throw, &(buffon_run){.samples = 1 << 22});");
     int crossing = draw_needles(story_figure(s, "one"), &throw, &run, SHOWN);
     story_caption(s, "The first %d needles of the run; %d of them cross (orange), which would make "
-                  "&pi; about %.2f. All %llu together give &pi; = %.4f, with 95&#8201;%% confidence "
+                  "&pi; about %.2f. All %s together give &pi; = %.4f, with 95&#8201;%% confidence "
                   "between %.4f and %.4f.", (int)SHOWN, crossing, 2.0 * SHOWN / crossing,
-                  (unsigned long long)e.samples, 2 / e.value, 2 / e.hi, 2 / e.lo);
+                  story_count(count, e.samples), 2 / e.value, 2 / e.hi, 2 / e.lo);
     story_add(s, "Buffon's needle: 2/pi", "expectation", &e, 2 / PI);
     story_results(s);
 }
@@ -113,6 +115,7 @@ void draw_curve(panel *p, const char *class, int filled)
 static void tell_basic(story *s)
 {
     enum { SHOWN = 32 };
+    char count[STORY_COUNT];
     double lo = 0, hi = CURVE_END, mean = 0, x[SHOWN], y[SHOWN];
     buffon_integrand f = {.scalar = curve, .dim = 1};
     buffon_run run = story_run(s, 1 << 22);
@@ -130,18 +133,19 @@ static void tell_basic(story *s)
                   "height; the mean height is that at random places, averaged.");
     story_prose(s, "To integrate <i>f</i> from <i>a</i> to <i>b</i>, draw places "
                 "<i>x</i><sub>i</sub> uniformly between them and average. Nothing is asked of "
-                "<i>f</i> but that it can be evaluated, and in ten dimensions the recipe is the same "
-                "as in one: it scales well. The price is noise, so an estimate without its standard "
-                "error is worth little. The samples that make the one make the other.");
+                "<i>f</i> but that it can be evaluated, and in ten dimensions the recipe is the "
+                "same as in one: it scales well. The price is noise, so an estimate without its "
+                "standard error is worth little. The samples that make the one make the other.");
     story_formula(s, "<i>&alpha;</i> = " INTEGRAL("<i>a</i>", "<i>b</i>") " <i>f</i>(<i>x</i>) "
                   "d<i>x</i> &asymp; " FRAC("<i>b</i> &minus; <i>a</i>", "<i>N</i>")
-                  SUM("i = 1", "<i>N</i>") " <i>f</i>(<i>x</i><sub>i</sub>), &#8195; "
+                  SUM("<i>i</i> = 1", "<i>N</i>") " <i>f</i>(<i>x</i><sub>i</sub>), &#8195; "
                   "<i>f</i>(<i>x</i>) = e<sup>&minus;<i>x</i></sup> sin&sup2; 2<i>x</i>");
     story_code(s, "double lo = 0, hi = 3;\n"
                "buffon_integrand f = {.scalar = curve, .dim = 1};\n"
                "status = buffon_uniform(&e, &f, &lo, &hi, &(buffon_run){.samples = 1 << 22});\n"
                "printf(\"%g +- %g\\n\", e.value, e.std_error);");
-    ruler across = {.lo = 0, .hi = CURVE_END, .label = "x"}, up = {.lo = 0, .hi = 0.55, .label = "f (x)"};
+    ruler across = {.lo = 0, .hi = CURVE_END, .label = "x"};
+    ruler up = {.lo = 0, .hi = 0.55, .label = "f (x)"};
     panel p = panel_begin(story_figure(s, "one"), 860, 330, across, up, "A curve with 32 samples");
     panel_rectangle(&p, "c1", 0, 0, CURVE_END, mean);
     for (int i = 0; i < SHOWN; i++)
@@ -157,7 +161,7 @@ static void tell_basic(story *s)
     panel_end(&p);
     story_caption(s, "The first %d samples of the run. The shaded rectangle has their mean height; "
                   "its area, %.3f, is the estimate that they make. The dashed line is the mean of "
-                  "all %llu.", (int)SHOWN, mean * CURVE_END, (unsigned long long)e.samples);
+                  "all %s.", (int)SHOWN, mean * CURVE_END, story_count(count, e.samples));
     story_add(s, "area under the curve", "uniform", &e, curve_integral(CURVE_END));
     story_results(s);
 }
@@ -168,7 +172,8 @@ static void draw_rejection(story *s, const buffon_run *run, int shown)
 {
     double lo[] = {0, 0}, hi[] = {CURVE_END, CURVE_TOP};
     buffon_density board = buffon_box(lo, hi, 2);
-    ruler across = {.lo = 0, .hi = CURVE_END, .label = "x"}, up = {.lo = 0, .hi = 0.5, .label = "y"};
+    ruler across = {.lo = 0, .hi = CURVE_END, .label = "x"};
+    ruler up = {.lo = 0, .hi = CURVE_TOP, .label = "y"};
     panel p = panel_begin(story_figure(s, "one"), 860, 340, across, up,
                           "Points in a box, under the curve or above it");
     draw_curve(&p, "c3", 1);
@@ -195,21 +200,22 @@ static void tell_rejection(story *s)
     run.samples = 1 << 22;
     story_check(buffon_rejection(&e, &f, &lo, &hi, CURVE_TOP, &run), "rejection");
 
-    story_section(s, "The rejection method", "Throw points at a box around the curve and count those "
-                  "that fall under it.");
-    story_prose(s, "If the curve stays below <i>h</i>, the share of points (<i>x</i>, <i>y</i>) of the "
-                "box that lie under it is the share of the area. It is the needle once more: a "
-                "sample says only yes or no, which wastes what <i>f</i> could tell, so its error is "
-                "larger than that of the mean height from as many samples. In return the "
+    story_section(s, "The rejection method", "Throw points at a box around the curve and count "
+                  "those that fall under it.");
+    story_prose(s, "If the curve stays below <i>h</i>, the share of points (<i>x</i>, <i>y</i>) of "
+                "the box that lie under it is the share of the area. It is the needle once more: a "
+                "sample says only yes or no, which wastes what <i>f</i> could tell, so its error "
+                "is larger than that of the mean height from as many samples. In return the "
                 "interval can be exact: a number of hits is binomial, and the interval of Clopper "
                 "and Pearson covers the truth at least as often as it states, for any number of "
-                "samples. A value above <i>h</i> would silently spoil the estimate, so here it ends "
-                "the run with the offending point.");
+                "samples. A value above <i>h</i> would silently spoil the estimate, so here it "
+                "ends the run with the offending point.");
     story_formula(s, "<i>&alpha;</i> &asymp; " FRAC("<i>N</i><sup>&lowast;</sup>", "<i>N</i>")
-                  " <i>h</i> (<i>b</i> &minus; <i>a</i>), &#8195; <i>N</i><sup>&lowast;</sup> = number "
-                  "of points with <i>y</i><sub>i</sub> &le; <i>f</i>(<i>x</i><sub>i</sub>)");
+                  " <i>h</i> (<i>b</i> &minus; <i>a</i>), &#8195; <i>N</i><sup>&lowast;</sup> = "
+                  "number of points with <i>y</i><sub>i</sub> &le; <i>f</i>(<i>x</i><sub>i</sub>)");
     story_code(s, "double lo = 0, hi = 3, height = 0.5;\n"
-               "status = buffon_rejection(&e, &f, &lo, &hi, height, &(buffon_run){.samples = 600});\n"
+               "buffon_run run = {.samples = 600};\n"
+               "status = buffon_rejection(&e, &f, &lo, &hi, height, &run);\n"
                "printf(\"%g, surely between %g and %g\\n\", e.value, e.lo, e.hi);");
     draw_rejection(s, &run, SHOWN);
     story_caption(s, "%.0f of %d points fall under the curve: <i>&alpha;</i> &asymp; %.3f, and the "
@@ -262,8 +268,8 @@ static double midpoint(double (*f)(const double *x, void *ctx), int d, int k, do
     return sum * pow(cell, d);
 }
 
-static buffon_estimate sample_cube(story *s, double (*f)(const double *x, void *ctx), int d, double lo,
-                                   double hi, uint64_t samples)
+static buffon_estimate sample_cube(story *s, double (*f)(const double *x, void *ctx), int d,
+                                   double lo, double hi, uint64_t samples)
 {
     double low[MOST_DIMENSIONS], high[MOST_DIMENSIONS];
     buffon_integrand integrand = {.scalar = f, .dim = (size_t)d, .ctx = &d};
@@ -303,7 +309,7 @@ static void draw_dimensions(story *s, text *out)
     panel_dots(&p, "c2", 8, d, grid, COUNT);
     panel_line(&p, "c1", d, random, COUNT);
     panel_dots(&p, "c1", 8, d, random, COUNT);
-    panel_text(&p, "c2 halo", 2, 1e-10, 20, 14, "midpoint rule");
+    panel_text(&p, "c2 halo", 1.41, 4e-10, 12, 8, "midpoint rule");
     panel_text(&p, "c1 halo", 1.05, random[0], 0, -12, "Monte Carlo");
     panel_end(&p);
     text_put(out, "</div>");
@@ -335,7 +341,7 @@ static void draw_ball(story *s, text *out, double volume)
     panel_dots(&p, "c1", 8, n, random, COUNT);
     panel_text(&p, "c2 halo", n[0], grid[0], 12, 5, "midpoint rule");
     panel_text(&p, "c1 halo middle", n[1], random[1], 0, -44, "Monte Carlo");
-    panel_text(&p, "halo", across.lo, volume, 4, -7, "exact %.3f", volume);
+    panel_text(&p, "halo middle", 7000, volume, 0, -7, "exact %.3f", volume);
     panel_end(&p);
     text_put(out, "</div>");
 }
@@ -347,8 +353,8 @@ static void tell_quadrature(story *s)
                   "dimensions a grid is useless.");
     story_prose(s, "In one dimension a quadrature rule wins by many digits. But a grid with "
                 "<i>k</i> places along each axis has <i>k</i><sup><i>d</i></sup> points, and a "
-                "million evaluations buy a million places in one dimension, four along each axis in "
-                "ten and two in twenty. The standard error of Monte Carlo is "
+                "million evaluations buy a million places in one dimension, four along each axis "
+                "in ten and two in twenty. The standard error of Monte Carlo is "
                 "<i>&sigma;</i>/&radic;<i>N</i> in every dimension. It does not mind a jump "
                 "either, and it comes with an error bar, which the grid does not.");
     story_formula(s, "grid: error ~ <i>N</i><sup>&minus;2/<i>d</i></sup>, if <i>f</i> is smooth "
@@ -365,10 +371,10 @@ static void tell_quadrature(story *s)
     text *out = story_figure(s, "two");
     draw_dimensions(s, out);
     draw_ball(s, out, volume);
-    story_caption(s, "Left: relative errors for the product of (&pi;/2) sin &pi;<i>x</i><sub>j</sub>, "
-                  "always with 2<sup>20</sup> evaluations: the grid against the standard error of "
-                  "Monte Carlo. Right: grids of 2, 3 and 4 places along each axis, and as many "
-                  "random points with their 95&#8201;%% intervals.");
+    story_caption(s, "Left: relative errors for the product of (&pi;/2) sin "
+                  "&pi;<i>x</i><sub>j</sub>, always with 2<sup>20</sup> evaluations: the grid "
+                  "against the standard error of Monte Carlo. Right: grids of 2, 3 and 4 places "
+                  "along each axis, and as many random points with their 95&#8201;%% intervals.");
     story_results(s);
 }
 

@@ -43,7 +43,7 @@ double story_z(const story_row *row)
 int story_decimals(const story_row *row)
 {
     if (story_is_exact(row))
-        return 10;
+        return 8;
     double places = ceil(-log10(row->estimate.std_error)) + 1;
     return (int)fmin(fmax(places, 1), 10);
 }
@@ -58,18 +58,18 @@ static void print_row(const story_row *row)
         snprintf(z, sizeof z, "%.1f", story_z(row));
         snprintf(error, sizeof error, "%.1e", e->std_error);
     }
-    printf("%-29s %-20s %8llu %12.*f %8s %20s %12.*f %4s\n", row->problem, row->estimator,
-           (unsigned long long)e->samples, decimals, e->value, error, interval, decimals, row->exact,
-           z);
+    printf("%-28s %-20s %8llu %10.*f %8s %22s %10.*f %4s\n", row->problem, row->estimator,
+           (unsigned long long)e->samples, decimals, e->value, error, interval, decimals,
+           row->exact, z);
 }
 
 static void print_table(const story *s)
 {
     double largest = 0;
     size_t noisy = 0, missed = 0;
-    printf("%-29s %-20s %8s %12s %8s %20s %12s %4s\n", "problem", "estimator", "samples", "value",
+    printf("%-28s %-20s %8s %10s %8s %22s %10s %4s\n", "problem", "estimator", "samples", "value",
            "std_err", "95 % interval", "exact", "z");
-    for (int i = 0; i < 120; i++)
+    for (int i = 0; i < 117; i++)
         putchar('-');
     putchar('\n');
     for (size_t i = 0; i < s->rows; i++) {
@@ -87,16 +87,18 @@ static void print_table(const story *s)
 
 /* ---- the bar ---- */
 
-static void draw_bar(const story *s, double fraction)
+/* The bar never goes back, and is drawn when it says something new. */
+static void draw_bar(story *s, double fraction)
 {
     enum { WIDTH = 40 };
-    int full = (int)(fraction * WIDTH);
-    if (!s->terminal)
+    int percent = (int)(100 * fraction), full = percent * WIDTH / 100;
+    if (!s->terminal || percent <= s->shown)
         return;
+    s->shown = percent;
     fputs("\r[", stderr);
     for (int i = 0; i < WIDTH; i++)
         fputc(i < full ? '#' : '.', stderr);
-    fprintf(stderr, "] %3.0f %%  %-36s", 100 * fraction, s->doing);
+    fprintf(stderr, "] %3d %%  %-28s", percent, s->doing);
     fflush(stderr);
 }
 
@@ -139,12 +141,12 @@ typedef struct chapter {
 } chapter;
 
 static const chapter chapters[] = {
-    {"integrals", tell_integrals, 10},
-    {"densities and variance", tell_densities, 10},
-    {"directions and light", tell_light, 10},
-    {"inverse CDF and the disk", tell_disk, 10},
-    {"errors and intervals", tell_errors, 10},
-    {"the picture", tell_picture, 10},
+    {"integrals", tell_integrals, 5},
+    {"densities and variance", tell_densities, 1},
+    {"directions and light", tell_light, 1.5},
+    {"inverse CDF and the disk", tell_disk, 2.5},
+    {"errors and intervals", tell_errors, 4},
+    {"the picture", tell_picture, 16},
 };
 
 /* Makes the directories on the way to a file. */
@@ -179,7 +181,7 @@ int main(int argc, char **argv)
 {
     const char *path = argc > 1 ? argv[1] : "build/demo/lecture.html";
     story *s = need_memory(sizeof *s);
-    *s = (story){.terminal = isatty(STDERR_FILENO)};
+    *s = (story){.terminal = isatty(STDERR_FILENO), .shown = -1};
     double whole = 0, done = 0;
     if (argc > 2 || path[0] == '\0' || path[0] == '-') {
         fprintf(stderr, "usage: %s [output.html]\n", argv[0]);
@@ -196,10 +198,8 @@ int main(int argc, char **argv)
         story_share(s, 0, 1);
         chapters[i].tell(s);
     }
-    s->doing = "";
-    draw_bar(s, 1);
     if (s->terminal)
-        fputs("\r\033[K", stderr);
+        fprintf(stderr, "\r%76s\r", ""); /* wipes the bar */
     print_table(s);
     write_page(s, path);
     printf("wrote %s\n", path);

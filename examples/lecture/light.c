@@ -67,7 +67,7 @@ static buffon_estimate reflect(story *s, const lamp *light, const buffon_density
 
 static void draw_light(globe *g, const lamp *light)
 {
-    static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1.16};
+    static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1.14};
     globe_circle(g, "c2", light->axis, 1 - light->h);
     globe_segment(g, "exact", origin, up);
     globe_text(g, "middle", up, 0, -5, "n");
@@ -112,7 +112,7 @@ static void draw_primaries(text *out, const lamp *light, const buffon_density *g
     ruler across = {.lo = 0, .hi = SHOWN, .label = "sample"};
     ruler up = {.lo = 0, .hi = top, .label = "primary estimate"};
     text_add(out, "<div><p>What %d samples say</p>", (int)SHOWN);
-    panel p = panel_begin(out, 430, 262, across, up, "Primary estimates in order");
+    panel p = panel_begin(out, 430, 268, across, up, "Primary estimates in order");
     for (int i = 0; i < SHOWN; i++) {
         double w[3], pdf;
         story_check(buffon_sample_at(w, g, (uint64_t)i, &run), "directions");
@@ -162,8 +162,8 @@ static buffon_estimate tell_radiance(story *s, const lamp *light)
     draw_directions(out, light, &hemisphere, 700, "Uniform directions of the hemisphere");
     draw_primaries(out, light, &hemisphere, 18);
     story_caption(s, "Left: 700 uniform directions; only those within the circle (orange) see the "
-                  "lamp, which covers %.1f&#8201;%% of the hemisphere. Right: most samples say zero, "
-                  "a few say far too much.", 100 * light->h);
+                  "lamp, which covers %.1f&#8201;%% of the hemisphere. Right: most samples say "
+                  "zero, a few say far too much.", 100 * light->h);
     story_add(s, "reflected radiance of a lamp", "uniform hemisphere", &e,
               reflected_exactly(light));
     story_results(s);
@@ -177,16 +177,17 @@ static buffon_estimate tell_cap(story *s, const lamp *light)
     buffon_density cap = buffon_cap_angle(HALF_ANGLE, light->axis);
     story_share(s, 0.3, 0.45);
     buffon_estimate e = reflect(s, light, &cap);
-    story_section(s, "The top of the sphere: sampling a light", "A sphere seen from anywhere outside is "
-                  "a cap of directions.");
+    story_section(s, "The top of the sphere: sampling a light", "A sphere seen from anywhere "
+                  "outside is a cap of directions.");
     story_prose(s, "Stop the plane of Archimedes at height <i>h</i> instead of going down to the "
-                "south pole, and the same construction gives uniform points of a cap. Turned towards "
-                "the lamp, that is exactly the set of directions in which the lamp is seen, so "
-                "every sample now reaches it. What noise is left comes from the cosine alone. "
-                "(The library carries 1 &minus; <i>h</i>, which for something as small as the "
-                "sun keeps the digits that <i>h</i> itself has lost.)");
+                "south pole, and the same construction gives uniform points of a cap. Turned "
+                "towards the lamp, that is exactly the set of directions in which the lamp is "
+                "seen, so every sample now reaches it. What noise is left comes from the cosine "
+                "alone. (The library carries 1 &minus; <i>h</i>, which for something as small as "
+                "the sun keeps the digits that <i>h</i> itself has lost.)");
     story_formula(s, "<i>z</i> = 1 &minus; (1 &minus; <i>h</i>) <i>u</i><sub>1</sub>, &#8195; "
-                  "<i>g</i> = " FRAC("1", "2&pi; (1 &minus; <i>h</i>)") ", &#8195; <i>x</i>, <i>y</i> "
+                  "<i>g</i> "
+                  "= " FRAC("1", "2&pi; (1 &minus; <i>h</i>)") ", &#8195; <i>x</i>, <i>y</i> "
                   "as on the sphere");
     story_code(s, "/* the directions in which a sphere is seen ... */\n"
                "buffon_density g = buffon_cap_of_sphere(from, centre, radius);\n"
@@ -196,9 +197,9 @@ static buffon_estimate tell_cap(story *s, const lamp *light)
     text *out = story_figure(s, "two");
     draw_directions(out, light, &cap, 400, "Uniform directions of the cap");
     draw_primaries(out, light, &cap, 18);
-    story_caption(s, "The same lamp, the same scale as before. Every one of the 400 directions sees "
-                  "it, and every sample says nearly the right thing: the variance is %.2g instead "
-                  "of %.2g.", e.variance, s->row[s->rows - 2].estimate.variance);
+    story_caption(s, "The same lamp, the same scale as before. Every one of the 400 directions "
+                  "sees it, and every sample says nearly the right thing: the variance is %.2g "
+                  "instead of %.2g.", e.variance, s->row[s->rows - 2].estimate.variance);
     story_add(s, "reflected radiance of a lamp", "uniform cap", &e, reflected_exactly(light));
     story_results(s);
     return e;
@@ -241,10 +242,10 @@ static void draw_strata_errors(text *out, const buffon_estimate e[4])
     ruler across = {.lo = 0, .hi = 4, .no_ticks = 1, .label = "&#160;"};
     ruler up = {.lo = 0, .hi = top, .label = "standard error, in units of 0.0001"};
     text_put(out, "<div><p>Standard error at equal samples</p>");
-    panel p = panel_begin(out, 430, 262, across, up, "Standard errors");
+    panel p = panel_begin(out, 430, 268, across, up, "Standard errors");
     for (int i = 0; i < 4; i++) {
         double error = e[i].std_error * 1e4;
-        panel_rectangle(&p, i < 2 ? "c1" : "c2", i + 0.2, 0, i + 0.8, error);
+        panel_rectangle(&p, i < 2 ? "c1 bar" : "c2 bar", i + 0.2, 0, i + 0.8, error);
         panel_text(&p, "middle", i + 0.5, error, 0, -6, "%.2f", error);
         panel_text(&p, "tick middle", i + 0.5, 0, 0, 17, "%s", name[i]);
     }
@@ -265,15 +266,15 @@ static void tell_strata(story *s)
     story_share(s, 0.55, 0.65);
     e[2] = reflect_strata(s, &sky, BUFFON_ALLOCATION_SHARE);
     e[3] = reflect_strata(s, &sky, BUFFON_ALLOCATION_NEYMAN);
-    story_section(s, "Indirect light: stratification", "Split the region where the integrand is of two "
-                  "minds, and estimate each part on its own.");
+    story_section(s, "Indirect light: stratification", "Split the region where the integrand is of "
+                  "two minds, and estimate each part on its own.");
     story_prose(s, "Now the rest of the sky shines too, ten times fainter than the lamp but from "
                 "everywhere. A sampler for the lamp cannot see the sky, and one for the sky rarely "
                 "meets the lamp. So cut the hemisphere into <i>&gamma;</i>, where the lamp is, and "
                 "the rest, give each the density that suits it, and add the two estimates; their "
                 "errors add in squares. How to share the samples? Half and half is a fair guess; "
-                "Neyman&#8217;s rule gives each part as many as its own spread deserves, found by a "
-                "short pilot run that does not enter the estimate.");
+                "Neyman&#8217;s rule gives each part as many as its own spread deserves, found by "
+                "a short pilot run that does not enter the estimate.");
     story_formula(s, OVER("&Omega;") "<i>f</i> d<i>&omega;</i> = " OVER("&Omega; &minus; &gamma;")
                   "<i>f</i> d<i>&omega;</i> + " OVER("&gamma;") "<i>f</i> d<i>&omega;</i>, &#8195; "
                   "<i>&sigma;</i>&sup2; = " FRAC("<i>&sigma;</i><sub>1</sub>&sup2;",
@@ -282,7 +283,7 @@ static void tell_strata(story *s)
     story_code(s, "buffon_density cap = buffon_cap_angle(20 * PI / 180, axis);\n"
                "buffon_density all = buffon_hemisphere_cosine();\n"
                "buffon_stratum part[] = {{.density = &cap, .f = &from_light},\n"
-               "                         {.density = &all, .f = &from_rest}}; /* 0 within the cap */\n"
+               "                         {.density = &all, .f = &from_rest}}; /* 0 in the cap */\n"
                "buffon_strata strata = {.stratum = part, .count = 2,\n"
                "                        .allocation = BUFFON_ALLOCATION_NEYMAN};\n"
                "status = buffon_stratified(&e, NULL, &strata, NULL);");
@@ -317,8 +318,8 @@ static void draw_light_methods(story *s, const buffon_estimate e[3])
         snprintf(stick[i].note, sizeof stick[i].note, "%.2g", e[i].variance);
     }
     figure_lollipops(story_figure(s, "one"), across, stick, 3, "Variance by density");
-    story_caption(s, "The lamp alone, by three densities: one sample of the cap is worth %.0f of the "
-                  "uniform hemisphere and %.0f of the cosine hemisphere.",
+    story_caption(s, "The lamp alone, by three densities: one sample of the cap is worth %.0f of "
+                  "the uniform hemisphere and %.0f of the cosine hemisphere.",
                   e[0].variance / e[2].variance, e[1].variance / e[2].variance);
 }
 
@@ -333,25 +334,26 @@ static void tell_hemisphere(story *s, const lamp *light, const buffon_estimate b
         story_share(s, 0.8 + 0.1 * i, 0.9 + 0.1 * i);
         story_check(buffon_importance(&e[i], &f, &law[i], &run), "hemisphere");
     }
-    story_section(s, "The weighted hemisphere", "To sample directions with density cos &theta; / &pi;, "
-                  "sample the disk below and project upwards.");
-    story_prose(s, "A patch of the hemisphere that leans by <i>&theta;</i> casts a shadow on the ground "
-                "that is cos <i>&theta;</i> times its size. So uniform points of the ground, lifted "
-                "to the sphere, arrive with density proportional to the cosine. That density contains "
-                "one factor of the integrand already: for a sky that is the same everywhere "
-                "nothing is left, and the estimate has no variance. For a small lamp the cosine is "
-                "the lesser problem, and it helps but little.");
-    story_formula(s, "(<i>x</i>, <i>y</i>) uniform in the disk, &#8195; <i>z</i> = &radic;(1 &minus; "
-                  "<i>x</i>&sup2; &minus; <i>y</i>&sup2;), &#8195; <i>g</i> = "
+    story_section(s, "The weighted hemisphere", "To sample directions with density cos &theta; / "
+                  "&pi;, sample the disk below and project upwards.");
+    story_prose(s, "A patch of the hemisphere that leans by <i>&theta;</i> casts a shadow on the "
+                "ground that is cos <i>&theta;</i> times its size. So uniform points of the "
+                "ground, lifted to the sphere, arrive with density proportional to the cosine. "
+                "That density contains one factor of the integrand already: for a sky that is the "
+                "same everywhere nothing is left, and the estimate has no variance. For a small "
+                "lamp the cosine is the lesser problem, and it helps but little.");
+    story_formula(s, "(<i>x</i>, <i>y</i>) uniform in the disk, &#8195; <i>z</i> = &radic;(1 "
+                  "&minus; <i>x</i>&sup2; &minus; <i>y</i>&sup2;), &#8195; <i>g</i> = "
                   FRAC("cos <i>&theta;</i>", "&pi;"));
     story_code(s, "buffon_density g = buffon_hemisphere_cosine();\n"
                "status = buffon_importance(&e, &f, &g, &(buffon_run){.constant = 1});\n"
                "/* .constant: f/g is known to be constant, so that no spread is no surprise */");
     text *out = story_figure(s, "three");
     draw_hemispheres(out);
-    story_caption(s, "Left: points of the disk (blue) and above them (orange). Middle and right: the "
-                  "same 900 pairs of random numbers as uniform and as cosine-weighted directions, "
-                  "which thin out towards the horizon.");
+    story_caption(s, "Left: points of the disk (blue) and above them (orange). Middle and right: "
+                  "the same 900 pairs of random numbers as uniform and as cosine-weighted "
+                  "directions, seen from straight above: where the cosine is small there are "
+                  "fewer, and the disk is covered evenly.");
     draw_light_methods(s, by);
     story_add(s, "cos over the hemisphere: pi", "uniform hemisphere", &e[0], PI);
     story_add(s, "cos over the hemisphere: pi", "cosine hemisphere", &e[1], PI);

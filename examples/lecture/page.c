@@ -45,14 +45,16 @@ static const char page_prose[] =
     ".fr span:first-child{border-bottom:1px solid currentColor;padding:0 .2em}\n"
     ".sign{font-size:1.5em;line-height:1;vertical-align:-.18em;font-style:normal}\n"
     ".lim{display:inline-flex;flex-direction:column;vertical-align:middle;font-size:.64em;"
-    "line-height:1.5;margin:0 .4em 0 .1em}\n"
-    ".over{margin-right:.3em}\n"
+    "line-height:1.5;margin:0 .4em 0 -.1em}\n"
+    ".over{margin:0 .3em 0 -.25em}\n"
+    ".whole{margin-right:-.1em}\n"
     "sub,sup{line-height:0;font-size:.7em}\n"
-    "nav ol{columns:2;column-gap:36px;margin:26px 0 0;padding:0 0 0 1.6em;font-size:15px;"
+    "nav ol{columns:2;column-gap:36px;margin:26px 0 0;padding:0 0 0 2em;font-size:15px;"
     "line-height:1.9}\n"
     "nav a{color:inherit;text-decoration:none;border-bottom:1px solid var(--rule)}\n"
     "code{font-size:.86em}\n"
-    "pre,code{font-family:ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono',monospace}\n"
+    "pre,code{font-family:ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono',"
+    "monospace}\n"
     "pre{margin:22px 0;padding:16px 20px;background:var(--card);border-radius:6px;font-size:14px;"
     "line-height:1.55;overflow-x:auto;tab-size:4}\n"
     "pre b{font-weight:600;color:var(--c1)}\n"
@@ -60,11 +62,12 @@ static const char page_prose[] =
 
 static const char page_figures[] =
     "figure{margin:26px 0}\n"
-    "figcaption{font-size:14.5px;line-height:1.5;color:var(--soft);margin-top:10px;max-width:56em}\n"
+    "figcaption{font-size:14.5px;line-height:1.5;color:var(--soft);margin-top:10px;"
+    "max-width:56em}\n"
     "figcaption b{color:var(--ink);font-weight:600}\n"
     ".panels{display:grid;gap:14px 20px;align-items:end;grid-template-columns:1fr}\n"
     ".panels>div>p{font:600 14px/1.4 system-ui,-apple-system,'Segoe UI',Roboto,Arial,sans-serif;"
-    "text-align:center;margin:0 auto 2px;max-width:26em}\n"
+    "text-align:center;margin:0 0 2px}\n"
     ".two{grid-template-columns:repeat(auto-fit,minmax(min(100%,330px),1fr))}\n"
     ".three{grid-template-columns:repeat(auto-fit,minmax(min(100%,230px),1fr))}\n"
     ".one{overflow-x:auto}.one svg{min-width:560px}\n"
@@ -80,7 +83,7 @@ static const char page_figures[] =
     ".grid{fill:none;stroke:var(--grid);stroke-width:1}\n"
     ".line{fill:none;stroke-width:2;stroke-linejoin:round;stroke-linecap:round}\n"
     ".dots{fill:none;stroke-linecap:round}\n"
-    ".area{stroke:none;fill-opacity:.22}\n"
+    ".area{stroke:none;fill-opacity:.22}.area.bar{fill-opacity:.8}\n"
     ".line.thin{stroke-width:1}\n"
     ".line.hair{stroke-width:.9;stroke-opacity:.55}\n"
     ".line.dash{stroke-dasharray:5 4}\n"
@@ -95,6 +98,7 @@ static const char page_figures[] =
     ".dots.far{stroke-opacity:.26}\n"
     ".line.far{stroke-opacity:.3}\n"
     ".line.wire{stroke:var(--rule);stroke-width:1}.line.rim{stroke:var(--soft);stroke-width:1.2}\n"
+    ".pictures{gap:18px 16px}\n"
     "img{display:block;width:100%;height:auto;border-radius:4px;background:#000}\n";
 
 static const char page_tables[] =
@@ -102,7 +106,7 @@ static const char page_tables[] =
     "table{border-collapse:collapse;font-size:14px;line-height:1.35;width:100%;"
     "font-variant-numeric:tabular-nums}\n"
     "th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1px solid var(--soft)}\n"
-    "th,td{padding:6px 14px 6px 0;white-space:nowrap;vertical-align:baseline}\n"
+    "th,td{padding:6px 12px 6px 0;white-space:nowrap;vertical-align:baseline}\n"
     "td:first-child{white-space:normal;min-width:11em}\n"
     "th:last-child,td:last-child{padding-right:0}\n"
     "td{border-bottom:1px solid var(--grid)}\n"
@@ -114,7 +118,8 @@ static const char page_tables[] =
     "color:var(--soft)}\n"
     "@media(max-width:640px){body{font-size:17px}nav ol{columns:1}header{padding-top:40px}"
     "h2{font-size:26px}.formula{font-size:18px;padding-left:14px}}\n"
-    "@media print{body{font-size:10.5pt}main{max-width:none;padding:0}section{margin-top:28px}"
+    "@media print{:root{--paper:#fff}body{font-size:10.5pt}.lead{font-size:13pt}"
+    "table{font-size:8pt}.all table{font-size:7.4pt}td:first-child{min-width:0}main{max-width:none;padding:0}section{margin-top:28px}"
     "figure,pre,.formula,.table tr{break-inside:avoid}h2,.no,.says{break-after:avoid}"
     "pre{white-space:pre-wrap;border:1px solid var(--rule)}a{color:inherit}}\n";
 
@@ -197,6 +202,27 @@ void story_caption(story *s, const char *format, ...)
 
 /* ---- tables ---- */
 
+/* The table's names are for the terminal too, where there is no pi. */
+static void page_name(text *out, const char *name)
+{
+    static const char *const fine[][2] = {
+        {"pi", "&pi;"}, {"gamma", "&gamma;"}, {"^2", "&sup2;"}, {"^(x+y)", "<sup>x+y</sup>"},
+        {"'", "&rsquo;"}, {" x ", "&#8201;&times;&#8201;"}};
+    text_put(out, "<td>");
+    while (*name != '\0') {
+        size_t n = 0;
+        for (size_t i = 0; i < sizeof fine / sizeof *fine && n == 0; i++)
+            if (strncmp(name, fine[i][0], strlen(fine[i][0])) == 0) {
+                text_put(out, fine[i][1]);
+                n = strlen(fine[i][0]);
+            }
+        if (n == 0)
+            text_bytes(out, name, n = 1);
+        name += n;
+    }
+    text_put(out, "</td>");
+}
+
 static void page_number(text *out, const char *class, int decimals, double v)
 {
     text_add(out, "<td class=\"%s\">%s%.*f</td>", class, v < 0 ? "&#8722;" : "", decimals, fabs(v));
@@ -219,19 +245,21 @@ static void page_power(text *out, double v)
              exponent < 0 ? "&#8722;" : "", exponent < 0 ? -exponent : exponent);
 }
 
-static void page_samples(text *out, uint64_t n)
+const char *story_count(char grouped[STORY_COUNT], uint64_t n)
 {
-    char digits[32];
+    char digits[24];
     int length = snprintf(digits, sizeof digits, "%llu", (unsigned long long)n);
-    text_put(out, "<td class=\"num\">");
+    size_t at = 0;
     for (int i = 0; i < length; i++)
-        text_add(out, "%s%c", i > 0 && (length - i) % 3 == 0 ? "&#8239;" : "", digits[i]);
-    text_put(out, "</td>");
+        at += (size_t)snprintf(grouped + at, STORY_COUNT - at, "%s%c",
+                               i > 0 && (length - i) % 3 == 0 ? "&#8239;" : "", digits[i]);
+    return grouped;
 }
 
 static void page_rows(story *s, const char *class, int first_section)
 {
     text *out = &s->page;
+    char count[STORY_COUNT];
     text_add(out, "<div class=\"table %s\"><table>\n<tr><th>Problem</th><th>Estimator</th>"
              "<th class=\"num\">Samples</th><th class=\"num\">Value</th>"
              "<th class=\"num\">Std&#160;error</th><th class=\"num\">95&#8201;%% interval</th>"
@@ -242,10 +270,11 @@ static void page_rows(story *s, const char *class, int first_section)
         int decimals = story_decimals(row);
         if (row->section < first_section)
             continue;
-        text_add(out, "<tr%s><td>%s</td><td>%s</td>",
-                 i > 0 && s->row[i - 1].section != row->section ? " class=\"part\"" : "",
-                 row->problem, row->estimator);
-        page_samples(out, e->samples);
+        text_add(out, "<tr%s>",
+                 i > 0 && s->row[i - 1].section != row->section ? " class=\"part\"" : "");
+        page_name(out, row->problem);
+        page_name(out, row->estimator);
+        text_add(out, "<td class=\"num\">%s</td>", story_count(count, e->samples));
         page_number(out, "num", decimals, e->value);
         if (story_is_exact(row))
             text_put(out, "<td class=\"num\">rounding</td><td class=\"num\">&#8211;</td>");

@@ -16,7 +16,7 @@ typedef struct ball {
 
 /* The floor is the plane z = 0. Balls stand on it; the first is the lamp. */
 static const ball balls[] = {
-    {{-2.25, -1.3, 3.40}, 0.80, {1.00, 0.95, 0.85}},
+    {{-2.20, -1.1, 3.30}, 0.75, {1.00, 0.95, 0.85}},
     {{-1.35, 0.45, 1.00}, 1.00, {0.80, 0.27, 0.12}},
     {{1.30, 0.85, 1.25}, 1.25, {0.16, 0.38, 0.66}},
     {{0.28, -1.25, 0.55}, 0.55, {0.86, 0.66, 0.22}},
@@ -24,7 +24,7 @@ static const ball balls[] = {
 enum { BALLS = sizeof balls / sizeof *balls, LAMP = 0, FLOOR = BALLS, NOTHING };
 
 static const double lamp_radiance = 19;
-static const double eye[3] = {0.1, -9.2, 2.75}, look_at[3] = {0, 0, 1.62};
+static const double eye[3] = {0.1, -9.2, 2.75}, look_at[3] = {0, 0, 1.66};
 static const double eye_width = 0.84; /* of the picture at distance 1 */
 
 static double dot(const double a[3], const double b[3])
@@ -39,7 +39,7 @@ static void unit(double v[3])
         v[k] /= length;
 }
 
-/* How far a ray goes until it meets a ball; infinity if it does not. The direction is a unit one. */
+/* How far a ray goes until it meets a ball; infinity if it does not. `way` has length 1. */
 static double meet(const double from[3], const double way[3], const ball *b)
 {
     double to[3] = {b->centre[0] - from[0], b->centre[1] - from[1], b->centre[2] - from[2]};
@@ -140,7 +140,8 @@ static int see(double colour[3], const double way[3], sampling how, const buffon
     return 0;
 }
 
-void render(image *out, sampling how, buffon_run run, void (*tell)(double done, void *ctx), void *ctx)
+void render(image *out, sampling how, buffon_run run, void (*tell)(double done, void *ctx),
+            void *ctx)
 {
     /* Four rays a pixel, no two of them in a row or a column. */
     static const double offset[RENDER_RAYS][2] = {
@@ -214,7 +215,7 @@ double image_difference(const image *i, const image *reference)
 /* Film: what is bright saturates gently. Then the screen's own curve (sRGB). */
 static unsigned char image_byte(double light)
 {
-    double v = 1 - exp(-1.5 * light);
+    double v = 1 - exp(-1.8 * light);
     v = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
     return (unsigned char)lround(255 * v);
 }

@@ -26,8 +26,9 @@ void image_free(image *i);
 /* Rays of the eye in each pixel; each gets the samples of `run`, whose stream it sets. */
 #define RENDER_RAYS 4
 
-/* Renders with `run` for every ray. `tell`, called after each row, is given the share that is done. */
-void render(image *out, sampling how, buffon_run run, void (*tell)(double done, void *ctx), void *ctx);
+/* Renders with `run` for every ray. After each row `tell` is given the share that is done. */
+void render(image *out, sampling how, buffon_run run, void (*tell)(double done, void *ctx),
+            void *ctx);
 
 /* Root mean square difference of two images over the mean of the second, without the lamp. */
 double image_difference(const image *i, const image *reference);

@@ -14,7 +14,7 @@ static double height_squared(const double *w, void *ctx)
 /* Sphere and cylinder; points of the one straight across from points of the other. */
 static void draw_archimedes(text *out)
 {
-    enum { SHOWN = 40 };
+    enum { SHOWN = 110 };
     globe g = globe_eye(out, 300, 104, 16, -60);
     buffon_rng rng = buffon_rng_make(1777, 3);
     double pole[3] = {0, 0, 1};
@@ -43,8 +43,8 @@ static void draw_archimedes(text *out)
         ball[1] = on[1] * sqrt(1 - z * z);
         ball[2] = z;
         globe_segment(&g, "pale hair", on, ball);
-        globe_dots(&g, "c1", 5, on, 1);
-        globe_dots(&g, "c2", 5, ball, 1);
+        globe_dots(&g, "c1", 4.4, on, 1);
+        globe_dots(&g, "c2", 4.4, ball, 1);
     }
     globe_end(&g);
     text_put(out, "</div>");
@@ -81,27 +81,27 @@ void tell_sphere(story *s)
     buffon_estimate e;
     story_share(s, 0.15, 0.3);
     story_check(buffon_importance(&e, &f, &sphere, &run), "sphere");
-    story_section(s, "Uniform points on the sphere", "Archimedes: planes that cut equal heights cut "
-                  "equal areas from the sphere and from the cylinder around it.");
-    story_prose(s, "So to draw a point uniformly on the sphere, draw it on the cylinder, where that is "
-                "trivial, and move it straight in to the axis until it meets the sphere. The height "
-                "<i>z</i> is uniform. To draw two uniform <em>angles</em> instead is a classic "
-                "mistake: circles of latitude near the poles are short, and would get as many "
-                "points as the equator.");
+    story_section(s, "Uniform points on the sphere", "Archimedes: planes that cut equal heights "
+                  "cut equal areas from the sphere and from the cylinder around it.");
+    story_prose(s, "So to draw a point uniformly on the sphere, draw it on the cylinder, where "
+                "that is trivial, and move it straight in to the axis until it meets the sphere. "
+                "The height <i>z</i> is uniform. To draw two uniform <em>angles</em> instead is a "
+                "classic mistake: circles of latitude near the poles are short, and would get as "
+                "many points as the equator.");
     story_formula(s, "<i>z</i> = 1 &minus; 2<i>u</i><sub>1</sub>, &#8195; <i>&theta;</i> = "
-                  "2&pi;<i>u</i><sub>2</sub>, &#8195; <i>x</i> = cos <i>&theta;</i> &radic;(1 &minus; "
-                  "<i>z</i>&sup2;), &#8195; <i>y</i> = sin <i>&theta;</i> &radic;(1 &minus; "
-                  "<i>z</i>&sup2;)");
+                  "2&pi;<i>u</i><sub>2</sub>, &#8195; <i>x</i> = cos <i>&theta;</i> &radic;(1 "
+                  "&minus; <i>z</i>&sup2;), &#8195; <i>y</i> = sin <i>&theta;</i> &radic;(1 "
+                  "&minus; <i>z</i>&sup2;)");
     story_code(s, "buffon_density sphere = buffon_sphere();\n"
                "buffon_rng_fill(u, 2 * n, &rng);\n"
-               "status = buffon_density_sample(x, NULL, u, n, &sphere); /* x[0*n+i], x[1*n+i], ... */\n"
+               "status = buffon_density_sample(x, NULL, u, n, &sphere); /* x[0*n+i], ... */\n"
                "status = buffon_importance(&e, &z_squared, &sphere, NULL);");
     text *out = story_figure(s, "three");
     draw_archimedes(out);
     draw_spheres(out);
-    story_caption(s, "Left: points of the cylinder (blue) and where they go on the sphere (orange). "
-                  "Middle: 1200 points made so. Right: the same random numbers used as two angles "
-                  "crowd at the pole. Points on the far side are pale.");
+    story_caption(s, "Left: points of the cylinder (blue) and where they go on the sphere "
+                  "(orange). Middle: 1200 points made so. Right: the same random numbers used as "
+                  "two angles crowd at the pole. Points on the far side are pale.");
     story_add(s, "z^2 over the sphere: 4 pi/3", "uniform sphere", &e, 4 * PI / 3);
     story_results(s);
 }
@@ -143,8 +143,8 @@ void draw_hemispheres(text *out)
             else
                 buffon_hemisphere_sample(w, u1, u2);
         }
-        text_add(out, "<div><p>%s</p>", cosine ? "Proportional to the cosine" : "Uniform");
-        globe g = globe_begin(out, 300, 24, -62, 1, "Points on a hemisphere");
+        text_add(out, "<div><p>%s, from above</p>", cosine ? "Cosine-weighted" : "Uniform");
+        globe g = globe_begin(out, 300, 90, -90, 1, "A hemisphere from above");
         globe_dots(&g, cosine ? "c2" : "c1", 3.2, x, SHOWN);
         globe_end(&g);
         text_put(out, "</div>");

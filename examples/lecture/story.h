@@ -38,6 +38,7 @@ typedef struct story {
     const char *title[STORY_SECTIONS];
     int section, figure;
     int terminal;           /* non-zero: somebody watches */
+    int shown;              /* percent on the bar */
     const char *doing;      /* the chapter at work, */
     double begin, end;      /* its share of the whole, */
     double from, to;        /* and that of the run at work in it */
@@ -50,6 +51,11 @@ void story_formula(story *s, const char *html);
 void story_code(story *s, const char *code);
 text *story_figure(story *s, const char *class); /* class: one, two or three panels in a line */
 void story_caption(story *s, const char *format, ...) TEXT_PRINTF(2, 3);
+
+#define STORY_COUNT 72
+/* A whole number with its thousands set apart. */
+const char *story_count(char grouped[STORY_COUNT], uint64_t n);
+
 void story_results(story *s); /* the rows of this section */
 void story_finish(story *s, text *document);
 
@@ -97,6 +103,7 @@ void draw_hemispheres(text *out);
     "</span></span>"
 #define INTEGRAL(a, b) LIMITS("&int;", a, b)
 #define SUM(a, b) LIMITS("&sum;", a, b)
+#define WHOLE "<span class=\"sign whole\">&int;</span>"
 #define OVER(a) "<span class=\"sign\">&int;</span><sub class=\"over\">" a "</sub>"
 
 #endif

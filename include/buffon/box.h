@@ -10,11 +10,11 @@ BUFFON_BEGIN
 
 /** The uniform density on the box lo < x < hi.
  *
- *  In:      lo, hi  [dim], finite, lo < hi. Up to dim = 8 they are copied; with more coordinates they
- *                   must outlive the density
+ *  In:      lo, hi  [dim], finite, lo < hi. Up to dim = 8 they are copied; with more coordinates
+ *                   they must outlive the density
  *  Law:     x = lo + u (hi - lo), g = 1 / volume. x stays strictly between lo and hi wherever a
- *           double lies between them, and hi - lo may exceed the largest double. A volume beyond the
- *           doubles leaves g zero or infinite; buffon_density_log_pdf holds all the same
+ *           double lies between them, and hi - lo may exceed the largest double. A volume beyond
+ *           the doubles leaves g zero or infinite; buffon_density_log_pdf holds all the same
  *  Draws:   dim
  *  Returns: a density; it carries BUFFON_E_NULL, BUFFON_E_DIM (dim = 0) or BUFFON_E_DOMAIN
  *  Exact:   x within 2^-51 max(|lo|, |hi|), and 1 ulp where lo = 0; g within dim + 1 ulp

@@ -68,10 +68,10 @@ BUFFON_API buffon_density buffon_cap_height(double one_minus_cos, const double a
  *           radius     of the sphere, finite, > 0
  *  Law:     a cap about centre - from with sin(half angle) = radius / distance
  *  Draws:   2
- *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also when `from`
- *           lies in or on the sphere, or so far off that g would exceed the doubles
- *  Exact:   g within 8 ulp where the distance is 1.1 radii or more; nearer, as far as distance minus
- *           radius is known (tests/test_sampler_accuracy.c)
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also when
+ *           `from` lies in or on the sphere, or so far off that g would exceed the doubles
+ *  Exact:   g within 8 ulp where the distance is 1.1 radii or more; nearer, as far as distance
+ *           minus radius is known (tests/test_sampler_accuracy.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap_of_sphere(const double from[3], const double centre[3],

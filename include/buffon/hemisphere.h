@@ -36,8 +36,9 @@ BUFFON_API buffon_density buffon_hemisphere_about(const double axis[3]);
  *           with z > 0, 0 elsewhere and where |x|^2 is further than 2^-20 from 1
  *  Draws:   2
  *  Returns: a density of 3 coordinates
- *  Exact:   x and y within 4 ulp each, z and g within 3; z > 0 always, since it is 2 sqrt(v (1 - v))
- *           with v the uniform that determines the radius (tests/test_sampler_accuracy.c)
+ *  Exact:   x and y within 4 ulp each, z and g within 3; z > 0 always, since it is
+ *           2 sqrt(v (1 - v)) with v the uniform that determines the radius
+ *           (tests/test_sampler_accuracy.c)
  *  Source:  T. Malley (1988), A shading method for computer generated images
  *  Since:   0.1
  */

@@ -12,10 +12,11 @@ BUFFON_BEGIN
 
 /** A distribution on the line, in one of three forms:
  *
- *    quantile             F^-1 in closed form. With pdf the density can be used as g in f / g, without
- *                         it for expectations; with cdf points can be taken back to uniforms
- *    cdf, pdf             F and its derivative, from which F^-1 is found by Newton's method inside a
- *                         bracket; lo and hi bound the support
+ *    quantile             F^-1 in closed form. With pdf the density can be used as g in f / g,
+ *                         without it for expectations; with cdf points can be taken back to
+ *                         uniforms
+ *    cdf, pdf             F and its derivative, from which F^-1 is found by Newton's method inside
+ *                         a bracket; lo and hi bound the support
  *    x[count], F[count]   a table of the CDF, both strictly increasing, count >= 2: between its
  *                         points F is linear and the pdf constant. F need not run from 0 to 1: what
  *                         lies between F[0] and F[count-1] counts as the whole
@@ -39,14 +40,14 @@ typedef struct buffon_inversion {
  *  Law:     P(X <= x) = F(x)
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_NULL (how, or the half of a pair),
- *           BUFFON_E_SHAPE (not exactly one form), BUFFON_E_DOMAIN (lo, hi), BUFFON_E_TABLE (also if
- *           the range or a slope of the table exceeds the doubles), BUFFON_E_RESERVED. In use,
+ *           BUFFON_E_SHAPE (not exactly one form), BUFFON_E_DOMAIN (lo, hi), BUFFON_E_TABLE (also
+ *           if the range or a slope of the table exceeds the doubles), BUFFON_E_RESERVED. In use,
  *           BUFFON_E_INVERSION where a quantile is not finite, or a CDF is not a number or does not
- *           reach u within the support (those x are NaN); BUFFON_E_UNSUPPORTED where a pdf or cdf is
- *           wanted and not there. The values of pdf are passed on as they are
+ *           reach u within the support (those x are NaN); BUFFON_E_UNSUPPORTED where a pdf or cdf
+ *           is wanted and not there. The values of pdf are passed on as they are
  *  Exact:   quantile: what the function gives. cdf: F(x) crosses u, as computed, at x or within
  *           4 ulp of it. Table: F(x), relative to the whole, is u within 2^-51 and what 2 ulp of x
- *           are worth (tests/test_sampler_accuracy.c)
+ *           are worth (tests/test_inversion.c)
  *  Repeat:  each x depends on its u alone
  *  Cost:    cdf: some 5 to 15 calls of each function a point, never more than 320; table: the
  *           logarithm of count

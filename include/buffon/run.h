@@ -20,7 +20,7 @@ typedef enum buffon_nonfinite {
 
 /** How far a run is. */
 typedef struct buffon_progress {
-    uint64_t done, total;            /* points; total is what .samples allows */
+    uint64_t done, total;            /* points; total is what .samples allows, or this part of it */
     const buffon_estimate *estimate; /* of the points done: [components] */
     size_t components;
     const buffon_partial *partial;   /* what is done: may be saved; resuming from it gives the same bits */
