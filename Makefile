@@ -29,8 +29,10 @@ CPPFLAGS ?=
 LDFLAGS ?=
 WARNINGS ?= -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
-# The test programs to run, a command to run each under, and how long to fuzz.
-TESTS ?= $(basename $(notdir $(wildcard tests/test_*.c tests/fuzz_*.c)))
+# The test programs to run, the slow ones first; a command to run each under; how long to fuzz.
+slow := test_stopping test_rng_stats test_coverage
+TESTS ?= $(slow) $(filter-out $(slow),$(patsubst tests/%.c,%,$(wildcard tests/test_*.c \
+                                                                        tests/fuzz_*.c)))
 RUNNER ?=
 FUZZ_SECONDS ?= 60
 PKG_CONFIG ?= pkg-config
@@ -149,7 +151,7 @@ $(example_trees:%=$(BUILD)/examples/%): $(static)
 	@$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(static) $(libraries)
 
 # What takes no part in `make test` is compiled all the same.
-programs: $(tests) $(examples) $(benches) $(BUILD)/tests/bits $(BUILD)/tests/battery ## every program
+programs: $(tests) $(examples) $(benches) $(BUILD)/tests/bits $(BUILD)/tests/battery ## all of them
 
 examples: $(examples) ## the programs of examples/, in build/examples/
 
@@ -202,7 +204,7 @@ coverage: ## lines of the library that the tests reach
 	  awk -F"[':%]" '/^File/ { file = $$2 } /^Lines/ && file ~ /^src/ { print $$2 "%  " file }'
 
 # Each target is also one of the tests, where it makes its own bytes; the good ones are the seeds.
-fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets under libFuzzer, FUZZ_SECONDS each
+fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets, FUZZ_SECONDS each, by libFuzzer
 	@mkdir -p $(BUILD)/fuzz
 	@for file in tests/fuzz_*.c; do \
 	   name=$$(basename $$file .c); mkdir -p $(BUILD)/fuzz/corpus_$$name; \

@@ -70,9 +70,10 @@ static beta_law beta_law_make(double a, double b)
     return law;
 }
 
-/* The deviance far from the mean, for a <= b: (a + b) log(y0 + x0 e^mu) - a mu. The terms exceed
- * their difference at most tenfold. Where e^mu overflows e^mu is taken out of the logarithm. */
-static double beta_deviance_far(double a, double b, double mu)
+/* The deviance, for a <= b: (a + b) log(y0 + x0 e^mu) - a mu. Near the mean the terms cancel, down to
+ * an error of 1e-16 a mu; but there the deviance grows as a mu, so in mu the error is 1e-16. (For
+ * a > b the terms would be of size a log(a / b).) Where e^mu overflows it is divided out. */
+static double beta_deviance(double a, double b, double mu)
 {
     const double n = a + b;
     if (mu > 700) {
@@ -81,26 +82,20 @@ static double beta_deviance_far(double a, double b, double mu)
     return n * buffon_priv_log1p(a / n * buffon_priv_expm1(mu)) - a * mu;
 }
 
-/* With x = x0 (1 + ex), y = y0 (1 + ey): a ex + b ey = 0, so the deviance is the sum of the two
- * excesses e - log(1 + e), each of second order. */
+/* a y - b x = (a + b) (x0 - x), where x0 - x is formed without cancellation. Right of the mean all is
+ * divided by e^mu, which might overflow. */
 static beta_place beta_place_make(const beta_law *law, double mu)
 {
+    const double fall = buffon_priv_exp(-buffon_priv_abs(mu));
     const double d = buffon_priv_expm1(-buffon_priv_abs(mu));
-    const double odds = buffon_priv_exp(-buffon_priv_abs(mu)), a = law->a, b = law->b;
-    const int right = mu > 0; /* then exp(mu) might overflow: all is divided by it */
-    const double whole = right ? law->x0 + law->y0 * odds : law->y0 + law->x0 * odds;
-    const double ex = law->y0 * ((right ? -d : d) / whole);
-    const double ey = law->x0 * ((right ? d : -d) / whole);
+    const double a = law->a, b = law->b;
+    const int right = mu > 0;
+    const double whole = right ? law->x0 + law->y0 * fall : law->y0 + law->x0 * fall;
     beta_place at;
-    at.x = (right ? law->x0 : law->x0 * odds) / whole;
-    at.y = (right ? law->y0 * odds : law->y0) / whole;
-    at.slope = -a * ex;
-    if (buffon_priv_abs(mu) < 1) {
-        at.density = a * buffon_priv_log1p_excess(ex) + b * buffon_priv_log1p_excess(ey);
-    } else {
-        at.density = a <= b ? beta_deviance_far(a, b, mu) : beta_deviance_far(b, a, -mu);
-    }
-    at.density = law->peak - at.density;
+    at.x = (right ? law->x0 : law->x0 * fall) / whole;
+    at.y = (right ? law->y0 * fall : law->y0) / whole;
+    at.slope = a * law->y0 * ((right ? d : -d) / whole);
+    at.density = law->peak - (a <= b ? beta_deviance(a, b, mu) : beta_deviance(b, a, -mu));
     return at;
 }
 

@@ -44,8 +44,8 @@ typedef struct buffon_priv_problem {
     int scale_e;
     double param;    /* for weigh */
     uint8_t purpose; /* a buffon_purpose */
-    /* y[outputs * n] of a block; NULL: y is f. Returns BUFFON_OK, or an error and the lowest point it
-     * holds for in *bad. A y that is not finite is the engine's business. */
+    /* y[outputs * n] of a block; NULL: y is f. Returns BUFFON_OK, or an error and the lowest point
+     * it holds for in *bad. A y that is not finite is the engine's business. */
     buffon_status (*weigh)(double *y, size_t *bad, const buffon_priv_batch *batch,
                            const struct buffon_priv_problem *problem);
 } buffon_priv_problem;
@@ -59,7 +59,7 @@ buffon_status buffon_priv_refuse(buffon_estimate *out, const buffon_integrand *f
                                  buffon_status status);
 
 /** The point of a stratum at an index, as a run of purpose MAIN draws it. */
-buffon_status buffon_priv_engine_point(double *x, const buffon_density *g, uint64_t stratum,
-                                       uint64_t index, const buffon_run *run);
+buffon_status buffon_priv_run_point(double *x, const buffon_density *g, uint64_t stratum,
+                                    uint64_t index, const buffon_run *run);
 
 #endif

@@ -11,7 +11,8 @@
 #include "record.h"
 #include "stats_priv.h"
 
-/* A single sample with a tenth of all squared deviations: the spread was seen by about ten samples. */
+/* A single sample with a tenth of all squared deviations: the spread was seen by about ten samples.
+ */
 #define ESTIMATE_DOMINATED 0.1
 /* Above this tail index k-hat, estimates of the variance do not settle at any practical size
  * (Vehtari et al. 2024, section 3). */
@@ -109,21 +110,26 @@ static int estimate_swept(const buffon_priv_record *record, size_t stratum)
 static size_t estimate_variant(const buffon_priv_record *record, size_t stratum)
 {
     switch (record->shape.design) {
-    case BUFFON_DESIGN_ANTITHETIC: return 1;
-    case BUFFON_DESIGN_STRATIFIED: return estimate_swept(record, stratum) ? 2 : 1;
-    default: return 0;
+    case BUFFON_DESIGN_ANTITHETIC:
+        return 1;
+    case BUFFON_DESIGN_STRATIFIED:
+        return estimate_swept(record, stratum) ? 2 : 1;
+    default:
+        return 0;
     }
 }
 
 /* Covariance of the means of independent values, pairs, or stratified pairs.
  *
- * Stratified pairs: M cells with half differences d have Var(mean) = sum Var(cell) / (2 M^2), and d^2
- * has the mean Var(cell) / 2, so it is estimated by sum d^2 / M^2 = mean(d^2) / M, with M degrees of
- * freedom. mean(d_a d_b) follows from the covariance: (M - 1)/M cov + mean(d_a) mean(d_b). */
+ * Stratified pairs: M cells with half differences d have Var(mean) = sum Var(cell) / (2 M^2), and
+ * d^2 has the mean Var(cell) / 2, so it is estimated by sum d^2 / M^2 = mean(d^2) / M, with M
+ * degrees of freedom. mean(d_a d_b) follows from the covariance: (M - 1)/M cov + mean(d_a)
+ * mean(d_b). */
 static estimate_spread estimate_pairs_spread(const buffon_priv_record *record, size_t stratum,
                                              size_t a, size_t b)
 {
-    const size_t variant = estimate_variant(record, stratum), first = variant * record->shape.outputs;
+    const size_t variant = estimate_variant(record, stratum),
+                 first = variant * record->shape.outputs;
     const size_t end = (size_t)record->shape.replicates;
     uint64_t limbs[BUFFON_STATS_SQUARES];
     buffon_stats sa, sb;
@@ -145,9 +151,9 @@ static estimate_spread estimate_pairs_spread(const buffon_priv_record *record, s
                                                                buffon_priv_stats_mean_wide(&sb)));
         }
     }
-    return (estimate_spread){
-        .square = buffon_priv_wide_div(square, buffon_priv_wide_count(sa.count)),
-        .dof = (double)(sa.count - (variant != 2 && sa.count > 0))};
+    return (estimate_spread){.square =
+                                 buffon_priv_wide_div(square, buffon_priv_wide_count(sa.count)),
+                             .dof = (double)(sa.count - (variant != 2 && sa.count > 0))};
 }
 
 /* Covariance of the means over R replicates that have points, with weights w_r = n_r / n:
@@ -187,9 +193,12 @@ static estimate_spread estimate_stratum_spread(const buffon_priv_record *record,
                                                size_t a, size_t b)
 {
     switch (record->shape.design) {
-    case BUFFON_DESIGN_NONE: return (estimate_spread){estimate_wide(NAN), 0};
-    case BUFFON_DESIGN_REPLICATES: return estimate_replicates_spread(record, stratum, a, b);
-    default: return estimate_pairs_spread(record, stratum, a, b);
+    case BUFFON_DESIGN_NONE:
+        return (estimate_spread){estimate_wide(NAN), 0};
+    case BUFFON_DESIGN_REPLICATES:
+        return estimate_replicates_spread(record, stratum, a, b);
+    default:
+        return estimate_pairs_spread(record, stratum, a, b);
     }
 }
 
@@ -225,13 +234,13 @@ static estimate_spread estimate_mean_spread(const buffon_priv_record *record, si
         one = estimate_stratum_spread(record, s, a, b);
         one.square = buffon_priv_wide_mul(one.square, buffon_priv_wide_mul(factor, factor));
         sum = buffon_priv_wide_add(sum, one.square);
-        sum2 = buffon_priv_wide_add(sum2,
-                                    buffon_priv_wide_div(buffon_priv_wide_mul(one.square, one.square),
-                                                         estimate_wide(one.dof)));
+        sum2 = buffon_priv_wide_add(
+            sum2, buffon_priv_wide_div(buffon_priv_wide_mul(one.square, one.square),
+                                       estimate_wide(one.dof)));
     }
     if (record->shape.strata > 1 && sum2.m > 0)
-        one.dof = buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(sum, sum),
-                                                                  sum2));
+        one.dof =
+            buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(sum, sum), sum2));
     return (estimate_spread){sum, one.dof};
 }
 
@@ -266,8 +275,8 @@ static estimate_spread estimate_spread_of(const buffon_priv_record *record, size
     return v;
 }
 
-/* The largest part that one value has in the squared error: (y - mean)^2 / (n (n - 1)) of its stratum,
- * over the sum of all. */
+/* The largest part that one value has in the squared error: (y - mean)^2 / (n (n - 1)) of its
+ * stratum, over the sum of all. */
 static double estimate_share(const buffon_priv_record *record, size_t output)
 {
     buffon_priv_wide total = estimate_wide(0), worst = estimate_wide(0);
@@ -286,17 +295,18 @@ static double estimate_share(const buffon_priv_record *record, size_t output)
         high = buffon_priv_wide_add(estimate_wide(pool.max), mean);
         low = buffon_priv_wide_add(estimate_wide(pool.min), mean);
         for (unsigned side = 0; side < 2; side++) {
-            const buffon_priv_wide d = buffon_priv_wide_mul(side ? high : low,
-                                                            estimate_factor(record, s));
+            const buffon_priv_wide d =
+                buffon_priv_wide_mul(side ? high : low, estimate_factor(record, s));
             const buffon_priv_wide part = buffon_priv_wide_div(buffon_priv_wide_mul(d, d), n2);
-            const buffon_priv_wide less = buffon_priv_wide_add(worst, buffon_priv_wide_negate(part));
+            const buffon_priv_wide less =
+                buffon_priv_wide_add(worst, buffon_priv_wide_negate(part));
             if (less.m < 0)
                 worst = part;
         }
         const buffon_priv_wide factor = estimate_factor(record, s);
         const buffon_priv_wide var = estimate_pairs_spread(record, s, output, output).square;
-        total = buffon_priv_wide_add(total, buffon_priv_wide_mul(var, buffon_priv_wide_mul(factor,
-                                                                                           factor)));
+        total = buffon_priv_wide_add(
+            total, buffon_priv_wide_mul(var, buffon_priv_wide_mul(factor, factor)));
     }
     return total.m > 0 ? buffon_priv_wide_to_double(buffon_priv_wide_div(worst, total)) : NAN;
 }
@@ -313,10 +323,10 @@ static void estimate_extremes(buffon_estimate *out, const buffon_priv_record *re
         if (pool.count == 0)
             continue;
         const buffon_priv_wide factor = estimate_factor(record, s);
-        const double a = buffon_priv_wide_to_double(
-            buffon_priv_wide_mul(factor, estimate_wide(pool.min)));
-        const double b = buffon_priv_wide_to_double(
-            buffon_priv_wide_mul(factor, estimate_wide(pool.max)));
+        const double a =
+            buffon_priv_wide_to_double(buffon_priv_wide_mul(factor, estimate_wide(pool.min)));
+        const double b =
+            buffon_priv_wide_to_double(buffon_priv_wide_mul(factor, estimate_wide(pool.max)));
         const double tail = hits ? NAN : buffon_priv_tail_index(pool.top, pool.count);
         if (!(out->min <= (a < b ? a : b)))
             out->min = a < b ? a : b;
@@ -339,12 +349,12 @@ static void estimate_weights(buffon_estimate *out, const buffon_priv_record *rec
     out->min = out->max = NAN;
     out->tail_index = buffon_priv_tail_index(pool.top, pool.count);
     out->ess = buffon_stats_summary(&pool).ess;
-    out->max_share = buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(top, top),
-                                                                     sum));
+    out->max_share =
+        buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(top, top), sum));
 }
 
-/* lo and hi. Hits of independent points have Clopper and Pearson's; a spread has Student's, widened by
- * the rounding of the value; no spread and no error mean that nothing is known. */
+/* lo and hi. Hits of independent points have Clopper and Pearson's; a spread has Student's, widened
+ * by the rounding of the value; no spread and no error mean that nothing is known. */
 static void estimate_interval(buffon_estimate *out, const buffon_priv_record *record, double dof)
 {
     const buffon_priv_shape *shape = &record->shape;
@@ -412,8 +422,8 @@ buffon_estimate buffon_priv_estimate_failed(buffon_status status)
                              .acceptance = NAN};
 }
 
-/* The variance of one sample: that of the values, or, where no single law has them, the squared error
- * times their number. */
+/* The variance of one sample: that of the values, or, where no single law has them, the squared
+ * error times their number. */
 static double estimate_variance(const buffon_priv_record *record, size_t k, buffon_priv_wide square,
                                 uint64_t n)
 {
@@ -422,8 +432,8 @@ static double estimate_variance(const buffon_priv_record *record, size_t k, buff
     const buffon_priv_wide factor = estimate_factor(record, 0);
     buffon_stats pool;
     estimate_pool(&pool, record, 0, 0, (size_t)record->shape.replicates, k);
-    return buffon_priv_wide_to_double(buffon_priv_wide_mul(
-        buffon_priv_stats_variance(&pool), buffon_priv_wide_mul(factor, factor)));
+    return buffon_priv_wide_to_double(buffon_priv_wide_mul(buffon_priv_stats_variance(&pool),
+                                                           buffon_priv_wide_mul(factor, factor)));
 }
 
 static void estimate_component(buffon_estimate *out, const buffon_priv_record *record, size_t k)

@@ -28,8 +28,8 @@
 #error "buffon needs IEEE arithmetic: build it without -ffast-math and the flags it stands for"
 #endif
 
-/* 1, 16, 32 and 64 widen narrower types to a double at most, which does no harm; 2 is the x87, where
- * doubles carry spare bits. */
+/* 1, 16, 32 and 64 widen narrower types to a double at most, which does no harm; 2 is the x87,
+ * where doubles carry spare bits. */
 #if FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD > 64
 #error "buffon needs doubles that round to double: on 32-bit x86 build with -msse2 -mfpmath=sse"
 #endif

@@ -22,10 +22,8 @@ buffon_status buffon_expectation(buffon_estimate *out, const buffon_integrand *h
                                  const buffon_density *g, const buffon_run *run)
 {
     const buffon_priv_stratum stratum = {.g = g, .f = h, .weight = 1, .share = 1};
-    const buffon_priv_problem problem = {.name = "buffon.expectation",
-                                         .stratum = &stratum,
-                                         .strata = 1,
-                                         .scale_m = 1};
+    const buffon_priv_problem problem = {
+        .name = "buffon.expectation", .stratum = &stratum, .strata = 1, .scale_m = 1};
     return buffon_priv_engine_run(out, &problem, run);
 }
 

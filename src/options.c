@@ -89,7 +89,8 @@ buffon_status buffon_priv_points_check(const buffon_points *points, size_t dim)
     const uint64_t round = points->round != NULL ? points->round(dim, points) : 1;
     if (round == 0 || round > UINT64_C(1) << 48)
         return BUFFON_E_POINTS;
-    if ((points->design == BUFFON_DESIGN_ANTITHETIC || points->design == BUFFON_DESIGN_STRATIFIED) &&
+    if ((points->design == BUFFON_DESIGN_ANTITHETIC ||
+         points->design == BUFFON_DESIGN_STRATIFIED) &&
         round % 2 != 0)
         return BUFFON_E_POINTS;
     if (points->table_size != NULL && points->table_size(dim, points) == SIZE_MAX)

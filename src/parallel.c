@@ -28,8 +28,8 @@ void buffon_priv_team_stop(buffon_priv_team *team)
 #include <stdint.h>
 #include <stdlib.h>
 
-/* The integrand runs on these stacks. The default of some systems (128 KiB in musl) is too small for
- * other people's code; address space that is not touched costs nothing. */
+/* The integrand runs on these stacks. The default of some systems (128 KiB in musl) is too small
+ * for other people's code; address space that is not touched costs nothing. */
 #define PARALLEL_STACK (sizeof(void *) >= 8 ? (size_t)8 << 20 : (size_t)1 << 20)
 
 typedef struct parallel_member {

@@ -9,7 +9,8 @@ typedef void buffon_priv_work(size_t i, void *arg);
 
 typedef struct buffon_priv_team buffon_priv_team;
 
-/** Starts up to `helpers` threads. Those that cannot be started are done without; NULL if none can. */
+/** Starts up to `helpers` threads. Those that cannot be started are done without; NULL if none can.
+ */
 buffon_priv_team *buffon_priv_team_start(size_t helpers);
 
 /** Calls work(0, arg) here and work(1, arg) ... on the threads; returns when all have returned. */

@@ -10,10 +10,12 @@
 
 /* The saved form: 64-bit words, little end first.
  *
- *     magic  version  words in all  shape  weights  targets  done  cells (whole, then tail)  checksum
+ *     magic  version  words in all  shape  weights  targets  done  cells (whole, then tail)
+ * checksum
  *
- * A cell is its series of statistics (count, nonfinite, min, max, sum, squares, top), then its cross
- * products. An empty partial has shape words of zero and nothing between them and the checksum.
+ * A cell is its series of statistics (count, nonfinite, min, max, sum, squares, top), then its
+ * cross products. An empty partial has shape words of zero and nothing between them and the
+ * checksum.
  */
 #define PARTIAL_MAGIC UINT64_C(0x4c41495452415042) /* "BPARTIAL" as bytes */
 #define PARTIAL_VERSION 1
@@ -164,8 +166,8 @@ static int partial_plausible(const buffon_priv_shape *shape)
            (shape->covariance || shape->kind != BUFFON_PRIV_RATIO) && shape->strata > 0 &&
            shape->strata <= 65536 && shape->replicates > 0 && shape->replicates <= 256 &&
            shape->block >= 16 && shape->block <= many && !(shape->block & (shape->block - 1)) &&
-           shape->round > 0 && shape->parts > 0 && shape->parts <= UINT32_MAX &&
-           shape->looks > 0 && shape->looks <= 64;
+           shape->round > 0 && shape->parts > 0 && shape->parts <= UINT32_MAX && shape->looks > 0 &&
+           shape->looks <= 64;
 }
 
 /* Do the counts of a record fit each other? */
@@ -256,7 +258,8 @@ static buffon_status partial_compatible(const buffon_priv_record *a, const buffo
             return BUFFON_E_OVERLAP;
     }
     for (size_t c = 0; c < cells; c++) {
-        if (buffon_priv_cell_count(&a->tail, c, shape) && buffon_priv_cell_count(&b->tail, c, shape))
+        if (buffon_priv_cell_count(&a->tail, c, shape) &&
+            buffon_priv_cell_count(&b->tail, c, shape))
             return BUFFON_E_OVERLAP;
     }
     return BUFFON_OK;
@@ -319,7 +322,8 @@ buffon_status buffon_partial_estimate(buffon_estimate *out, const buffon_partial
         status = BUFFON_E_CONFIDENCE;
     if (status == BUFFON_OK)
         return buffon_priv_record_estimate(out, buffon_priv_partial_record(partial), confidence);
-    const size_t n = partial != NULL && partial->more != NULL ? buffon_partial_components(partial) : 1;
+    const size_t n =
+        partial != NULL && partial->more != NULL ? buffon_partial_components(partial) : 1;
     for (size_t k = 0; k < n; k++)
         out[k] = buffon_priv_estimate_failed(status);
     return status;

@@ -78,8 +78,8 @@ static uint64_t points_round_jitter(size_t dim, const buffon_points *self)
     return 2 * points_cells(self->param[0], dim);
 }
 
-/* A keyed permutation of 0 .. cells - 1. Each step (add, odd multiple, shifted xor) is a bijection of
- * the next power of two; what falls outside walks on along its cycle until it is back inside. */
+/* A keyed permutation of 0 .. cells - 1. Each step (add, odd multiple, shifted xor) is a bijection
+ * of the next power of two; what falls outside walks on along its cycle until it is back inside. */
 typedef struct points_shuffle {
     uint64_t cells, mask;
     unsigned shift;
@@ -113,7 +113,8 @@ static uint64_t points_shuffle_at(const points_shuffle *s, uint64_t i)
 
 /* Point q is in sweep q / 2M over the M cells; within it, pair q / 2 mod M has the cell that the
  * sweep's permutation gives. Its place in the cell is the uniform q of each dimension. */
-static int points_fill_jitter(double *u, const buffon_points_block *block, const buffon_points *self)
+static int points_fill_jitter(double *u, const buffon_points_block *block,
+                              const buffon_points *self)
 {
     const uint64_t k = self->param[0], cells = points_cells(k, block->dim);
     const double side = 1 / (double)k, below_one = 1 - 0x1p-53;
@@ -154,7 +155,8 @@ buffon_points buffon_points_jitter(uint64_t k)
 }
 
 /* The numbers come from outside, so each is checked. */
-static int points_fill_replay(double *u, const buffon_points_block *block, const buffon_points *self)
+static int points_fill_replay(double *u, const buffon_points_block *block,
+                              const buffon_points *self)
 {
     const size_t count = (size_t)self->limit, first = (size_t)block->first;
     const double *data = self->data;

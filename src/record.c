@@ -14,9 +14,12 @@ size_t buffon_priv_shape_cells(const buffon_priv_shape *shape)
 size_t buffon_priv_shape_variants(const buffon_priv_shape *shape)
 {
     switch (shape->design) {
-    case BUFFON_DESIGN_ANTITHETIC: return 2;
-    case BUFFON_DESIGN_STRATIFIED: return 3;
-    default: return 1;
+    case BUFFON_DESIGN_ANTITHETIC:
+        return 2;
+    case BUFFON_DESIGN_STRATIFIED:
+        return 3;
+    default:
+        return 1;
     }
 }
 
@@ -37,7 +40,8 @@ size_t buffon_priv_shape_cross(const buffon_priv_shape *shape)
     return buffon_priv_shape_variants(shape) * record_pairs(shape) * BUFFON_STATS_SQUARES;
 }
 
-size_t buffon_priv_shape_cross_at(const buffon_priv_shape *shape, size_t variant, size_t a, size_t b)
+size_t buffon_priv_shape_cross_at(const buffon_priv_shape *shape, size_t variant, size_t a,
+                                  size_t b)
 {
     return (variant * record_pairs(shape) + b * (b - 1) / 2 + a) * BUFFON_STATS_SQUARES;
 }
@@ -74,8 +78,8 @@ void buffon_priv_cells_free(buffon_priv_cells *cells)
     cells->cross = NULL;
 }
 
-void buffon_priv_cell_merge(const buffon_priv_cells *into, const buffon_priv_cells *from, size_t cell,
-                            const buffon_priv_shape *shape)
+void buffon_priv_cell_merge(const buffon_priv_cells *into, const buffon_priv_cells *from,
+                            size_t cell, const buffon_priv_shape *shape)
 {
     const size_t series = buffon_priv_shape_series(shape), cross = buffon_priv_shape_cross(shape);
     for (size_t s = cell * series; s < (cell + 1) * series; s++)
@@ -140,7 +144,8 @@ uint64_t buffon_priv_record_owner(const buffon_priv_record *record, size_t cell,
 int buffon_priv_record_has(const buffon_priv_record *record, size_t cell, uint64_t k)
 {
     const buffon_priv_shape *shape = &record->shape;
-    if (k == record->target[cell] / shape->block && buffon_priv_cell_count(&record->tail, cell, shape))
+    if (k == record->target[cell] / shape->block &&
+        buffon_priv_cell_count(&record->tail, cell, shape))
         return 1;
     /* The owner's blocks are k mod parts, k mod parts + parts, ...: this is number k / parts. */
     return k / shape->parts <

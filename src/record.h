@@ -1,12 +1,13 @@
 /* What hangs on a buffon_partial: exact sums in cells, and which blocks are in them.
  *
- * A cell is one replicate of one stratum: cell = stratum * replicates + replicate. Its points are cut
- * into blocks; block k of a cell belongs to part (k + cell) mod parts. Of each part a prefix of its
- * blocks is done, so a count for each (part, cell) says which. The last block of a cell may be short:
- * its sums are kept apart (the tail), because a run that goes on evaluates that block again, whole.
+ * A cell is one replicate of one stratum: cell = stratum * replicates + replicate. Its points are
+ * cut into blocks; block k of a cell belongs to part (k + cell) mod parts. Of each part a prefix of
+ * its blocks is done, so a count for each (part, cell) says which. The last block of a cell may be
+ * short: its sums are kept apart (the tail), because a run that goes on evaluates that block again,
+ * whole.
  *
- * In a cell there is one buffon_stats for each series: the outputs y themselves, then, for points that
- * come in pairs, their pair means (y0 + y1)/2, then, for stratified pairs, (y0 - y1)/2.
+ * In a cell there is one buffon_stats for each series: the outputs y themselves, then, for points
+ * that come in pairs, their pair means (y0 + y1)/2, then, for stratified pairs, (y0 - y1)/2.
  */
 #ifndef BUFFON_RECORD_H
 #define BUFFON_RECORD_H
@@ -32,11 +33,11 @@ typedef struct buffon_priv_shape {
     uint64_t constant;   /* is zero spread certainty? */
     uint64_t strata, replicates;
     uint64_t block;
-    uint64_t round;      /* points of a full sweep of the point set */
-    uint64_t scale_m;    /* bits of the factor of all means ... */
-    uint64_t scale_e;    /* ... and its power of two, two's complement */
+    uint64_t round;   /* points of a full sweep of the point set */
+    uint64_t scale_m; /* bits of the factor of all means ... */
+    uint64_t scale_e; /* ... and its power of two, two's complement */
     uint64_t parts;
-    uint64_t looks;      /* over which the error probability is spent */
+    uint64_t looks; /* over which the error probability is spent */
 } buffon_priv_shape;
 
 #define BUFFON_PRIV_SHAPE_WORDS (sizeof(buffon_priv_shape) / sizeof(uint64_t))
@@ -65,15 +66,16 @@ size_t buffon_priv_shape_series(const buffon_priv_shape *shape);
 size_t buffon_priv_shape_cross(const buffon_priv_shape *shape);
 
 /** Where the product of outputs a < b of a variant starts within its cell's cross words. */
-size_t buffon_priv_shape_cross_at(const buffon_priv_shape *shape, size_t variant, size_t a, size_t b);
+size_t buffon_priv_shape_cross_at(const buffon_priv_shape *shape, size_t variant, size_t a,
+                                  size_t b);
 
 /** Zeroed sums for all cells of a shape; free with buffon_priv_cells_free. */
 int buffon_priv_cells_make(buffon_priv_cells *cells, const buffon_priv_shape *shape);
 void buffon_priv_cells_free(buffon_priv_cells *cells);
 
 /** Adds one cell to another, exactly. */
-void buffon_priv_cell_merge(const buffon_priv_cells *into, const buffon_priv_cells *from, size_t cell,
-                            const buffon_priv_shape *shape);
+void buffon_priv_cell_merge(const buffon_priv_cells *into, const buffon_priv_cells *from,
+                            size_t cell, const buffon_priv_shape *shape);
 void buffon_priv_cell_clear(const buffon_priv_cells *cells, size_t cell,
                             const buffon_priv_shape *shape);
 

@@ -11,7 +11,8 @@
 #include "engine.h"
 #include "options.h"
 
-/* y = 1 where the point (x, v height) is under the curve. A value that is not finite is passed on. */
+/* y = 1 where the point (x, v height) is under the curve. A value that is not finite is passed on.
+ */
 static buffon_status rejection_weigh(double *y, size_t *bad, const buffon_priv_batch *batch,
                                      const buffon_priv_problem *problem)
 {
@@ -169,7 +170,8 @@ static buffon_status rejection_loop(double *x, size_t n, buffon_rejection_report
 }
 
 static buffon_status rejection_check(const double *x, size_t n, const buffon_integrand *f,
-                                     const buffon_density *g, double envelope, const buffon_rng *rng)
+                                     const buffon_density *g, double envelope,
+                                     const buffon_rng *rng)
 {
     buffon_status status = buffon_density_check(g);
     if ((x == NULL && n > 0) || rng == NULL)

@@ -27,7 +27,8 @@ static buffon_status stratified_check(const buffon_integrand *f, const buffon_st
         return BUFFON_E_NULL;
     if (strata->count == 0 || strata->count > STRATIFIED_MOST)
         return BUFFON_E_STRATA;
-    if ((strata->reserved[0] | strata->reserved[1] | strata->reserved[2] | strata->reserved[3]) != 0 ||
+    if ((strata->reserved[0] | strata->reserved[1] | strata->reserved[2] | strata->reserved[3]) !=
+            0 ||
         (strata->allocation != BUFFON_ALLOCATION_SHARE &&
          strata->allocation != BUFFON_ALLOCATION_NEYMAN))
         return BUFFON_E_RESERVED;
@@ -71,11 +72,12 @@ static double stratified_deviation(const buffon_priv_record *record, size_t s, s
     return fabs(record->weight[s]) * deviation;
 }
 
-/* New shares from the pilot: Neyman's n_s ~ |weight_s| sigma_s, averaged over the components, and not
- * below a tenth of the old share, since a pilot can miss what a stratum hides. */
+/* New shares from the pilot: Neyman's n_s ~ |weight_s| sigma_s, averaged over the components, and
+ * not below a tenth of the old share, since a pilot can miss what a stratum hides. */
 static void stratified_reallocate(buffon_priv_stratum *list, const buffon_priv_record *record)
 {
-    const size_t strata = (size_t)record->shape.strata, components = (size_t)record->shape.components;
+    const size_t strata = (size_t)record->shape.strata,
+                 components = (size_t)record->shape.components;
     double old = 0, all_components = 0;
     for (size_t s = 0; s < strata; s++)
         old += list[s].share;
@@ -98,8 +100,8 @@ static void stratified_reallocate(buffon_priv_stratum *list, const buffon_priv_r
         list[s].share /= STRATIFIED_FLOOR;
 }
 
-/* Runs the pilot, with numbers of its own, and reallocates. Its size does not depend on the samples of
- * the run, so a longer run keeps the shares of a shorter one. */
+/* Runs the pilot, with numbers of its own, and reallocates. Its size does not depend on the samples
+ * of the run, so a longer run keeps the shares of a shorter one. */
 static buffon_status stratified_pilot(buffon_estimate *out, buffon_priv_problem *problem,
                                       buffon_priv_stratum *list, const buffon_strata *strata,
                                       const buffon_run *run)
@@ -142,7 +144,8 @@ buffon_status buffon_stratified(buffon_estimate *out, const buffon_integrand *f,
 {
     buffon_status status = stratified_check(f, strata);
     const buffon_integrand *first = f;
-    if (strata != NULL && strata->stratum != NULL && strata->count > 0 && strata->stratum[0].f != NULL)
+    if (strata != NULL && strata->stratum != NULL && strata->count > 0 &&
+        strata->stratum[0].f != NULL)
         first = strata->stratum[0].f;
     if (status != BUFFON_OK || out == NULL)
         return buffon_priv_refuse(out, first, status);
@@ -173,5 +176,5 @@ buffon_status buffon_stratum_sample_at(double *x, const buffon_strata *strata, u
         return BUFFON_E_NULL;
     if (strata->count > STRATIFIED_MOST || stratum >= strata->count)
         return BUFFON_E_STRATA;
-    return buffon_priv_engine_point(x, strata->stratum[stratum].density, stratum, index, run);
+    return buffon_priv_run_point(x, strata->stratum[stratum].density, stratum, index, run);
 }

@@ -25,21 +25,21 @@ static worker_sizes worker_measure(const buffon_priv_problem *problem)
     return most;
 }
 
-buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_priv_setting *setting,
+buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_priv_plan *plan,
                                       size_t n)
 {
-    const buffon_priv_problem *problem = setting->problem;
-    const buffon_priv_shape *shape = setting->shape;
+    const buffon_priv_problem *problem = plan->problem;
+    const buffon_priv_shape *shape = &plan->shape;
     const worker_sizes most = worker_measure(problem);
     const size_t outputs = (size_t)shape->outputs, series = buffon_priv_shape_series(shape);
     /* Sums cannot wrap: uniforms and dim are below 2^32, the rest below 2^20. */
-    const size_t rows[] = {most.uniforms, most.dim,      1, most.components, problem->p != NULL,
+    const size_t rows[] = {most.uniforms, most.dim,        1, most.components, problem->p != NULL,
                            outputs,       series - outputs};
     double **const arrays[] = {&worker->u, &worker->x, &worker->pdf, &worker->f,
                                &worker->p, &worker->y, &worker->pair};
     size_t all = 0;
     memset(worker, 0, sizeof *worker);
-    worker->setting = setting;
+    worker->plan = plan;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (rows[i] > SIZE_MAX / 16 / sizeof(double) / n - all / n - 1)
             return BUFFON_E_NOMEM;
@@ -70,16 +70,6 @@ void buffon_priv_worker_free(buffon_priv_worker *worker)
     buffon_priv_cells_free(&worker->tail);
     worker->memory = NULL;
     worker->moments = NULL;
-}
-
-buffon_rng_key buffon_priv_cell_key(const buffon_priv_setting *setting, size_t cell)
-{
-    const size_t replicates = (size_t)setting->shape->replicates;
-    return (buffon_rng_key){.seed = setting->run->seed,
-                            .stream = setting->run->stream,
-                            .purpose = setting->problem->purpose,
-                            .replicate = (uint8_t)(cell % replicates),
-                            .stratum = (uint16_t)(cell / replicates)};
 }
 
 /* f[components * n] at x[dim * n]. */
@@ -113,15 +103,15 @@ static size_t worker_first_nan(const double *x, size_t dim, size_t n)
 static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_priv_task *task,
                                      const double **y, size_t *bad)
 {
-    const buffon_priv_setting *setting = worker->setting;
-    const buffon_priv_problem *problem = setting->problem;
-    const size_t stratum = task->cell / (size_t)setting->shape->replicates;
+    const buffon_priv_plan *plan = worker->plan;
+    const buffon_priv_problem *problem = plan->problem;
+    const size_t stratum = task->cell / (size_t)plan->shape.replicates;
     const buffon_density *g = problem->stratum[stratum].g;
-    const buffon_points_block block = {.key = buffon_priv_cell_key(setting, task->cell),
-                                       .first = task->k * setting->shape->block,
+    const buffon_points_block block = {.key = buffon_priv_plan_key(plan, task->cell),
+                                       .first = task->k * plan->shape.block,
                                        .n = task->n,
                                        .dim = g->uniforms + problem->extra,
-                                       .table = setting->table[task->cell]};
+                                       .table = plan->table[task->cell]};
     const buffon_priv_batch batch = {.n = task->n,
                                      .x = worker->x,
                                      .pdf = worker->pdf,
@@ -133,7 +123,7 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
     buffon_status status;
     *bad = 0;
     *y = NULL;
-    if (setting->points->fill(worker->u, &block, setting->points) != 0)
+    if (plan->points.fill(worker->u, &block, &plan->points) != 0)
         return BUFFON_E_POINTS;
     status = buffon_priv_density_result(
         g->ops->sample(worker->x, problem->pdf ? worker->pdf : NULL, worker->u, task->n, g));
@@ -157,14 +147,14 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
 static size_t worker_nonfinite(buffon_priv_worker *worker, double *y, size_t n, size_t end,
                                uint64_t *replaced)
 {
-    const buffon_priv_setting *setting = worker->setting;
+    const buffon_priv_plan *plan = worker->plan;
     size_t lowest = end;
-    for (size_t k = 0; k < setting->shape->outputs; k++) {
+    for (size_t k = 0; k < plan->shape.outputs; k++) {
         for (size_t i = 0; i < end; i++) {
             double *value = &y[k * n + i];
             if (*value - *value == 0)
                 continue;
-            if (setting->run->on_nonfinite == BUFFON_NONFINITE_ERROR) {
+            if (plan->run.on_nonfinite == BUFFON_NONFINITE_ERROR) {
                 lowest = i < lowest ? i : lowest;
                 break;
             }
@@ -178,7 +168,7 @@ static size_t worker_nonfinite(buffon_priv_worker *worker, double *y, size_t n, 
 /* Means and half differences of the pairs of each output, behind one another. */
 static void worker_pairs(buffon_priv_worker *worker, const double *y, size_t n)
 {
-    const buffon_priv_shape *shape = worker->setting->shape;
+    const buffon_priv_shape *shape = &worker->plan->shape;
     const size_t outputs = (size_t)shape->outputs, half = n / 2;
     const int differences = buffon_priv_shape_variants(shape) > 2;
     for (size_t k = 0; k < outputs; k++) {
@@ -196,15 +186,15 @@ static void worker_pairs(buffon_priv_worker *worker, const double *y, size_t n)
 static const double *worker_series(const buffon_priv_worker *worker, const double *y, size_t n,
                                    size_t s, size_t *count)
 {
-    const size_t outputs = (size_t)worker->setting->shape->outputs;
+    const size_t outputs = (size_t)worker->plan->shape.outputs;
     *count = s < outputs ? n : n / 2;
     return s < outputs ? y + s * n : worker->pair + (s - outputs) * (n / 2);
 }
 
-static void worker_add_cross(buffon_priv_worker *worker, const buffon_priv_cells *cells, size_t cell,
-                             const double *y, size_t n)
+static void worker_add_cross(buffon_priv_worker *worker, const buffon_priv_cells *cells,
+                             size_t cell, const double *y, size_t n)
 {
-    const buffon_priv_shape *shape = worker->setting->shape;
+    const buffon_priv_shape *shape = &worker->plan->shape;
     const size_t outputs = (size_t)shape->outputs;
     uint64_t *cross = cells->cross + cell * buffon_priv_shape_cross(shape);
     for (size_t v = 0; v < buffon_priv_shape_variants(shape); v++) {
@@ -216,7 +206,8 @@ static void worker_add_cross(buffon_priv_worker *worker, const buffon_priv_cells
                 const double *ya = worker_series(worker, y, n, v * outputs + a, &count);
                 const double *yb = worker_series(worker, y, n, v * outputs + b, &count);
                 const double q = buffon_priv_cross_block(ya, yb, count, ma, mb);
-                buffon_priv_cross_add(cross + buffon_priv_shape_cross_at(shape, v, a, b), ma, mb, q);
+                buffon_priv_cross_add(cross + buffon_priv_shape_cross_at(shape, v, a, b), ma, mb,
+                                      q);
             }
         }
     }
@@ -226,7 +217,7 @@ static void worker_add_cross(buffon_priv_worker *worker, const buffon_priv_cells
 static void worker_add(buffon_priv_worker *worker, const buffon_priv_task *task, const double *y,
                        const uint64_t *replaced)
 {
-    const buffon_priv_shape *shape = worker->setting->shape;
+    const buffon_priv_shape *shape = &worker->plan->shape;
     const size_t series = buffon_priv_shape_series(shape);
     const buffon_priv_cells *cells = task->n == shape->block ? &worker->whole : &worker->tail;
     buffon_stats *stats = cells->stats + task->cell * series;
@@ -245,7 +236,7 @@ static void worker_add(buffon_priv_worker *worker, const buffon_priv_task *task,
 
 static int worker_finite(buffon_priv_worker *worker, const double *y, size_t n)
 {
-    for (size_t k = 0; k < worker->setting->shape->outputs; k++) {
+    for (size_t k = 0; k < worker->plan->shape.outputs; k++) {
         if (buffon_priv_moments_block(&worker->moments[k], y + k * n, n) != n)
             return 0;
     }
@@ -256,7 +247,7 @@ static int worker_finite(buffon_priv_worker *worker, const double *y, size_t n)
 static buffon_status worker_doubtful(buffon_priv_worker *worker, const buffon_priv_task *task,
                                      double *y, buffon_status status, size_t *bad)
 {
-    const size_t outputs = (size_t)worker->setting->shape->outputs;
+    const size_t outputs = (size_t)worker->plan->shape.outputs;
     const size_t end = status == BUFFON_OK ? task->n : *bad;
     uint64_t *replaced = calloc(outputs, sizeof *replaced);
     size_t lowest;
@@ -266,7 +257,7 @@ static buffon_status worker_doubtful(buffon_priv_worker *worker, const buffon_pr
     lowest = worker_nonfinite(worker, y, task->n, end, replaced);
     if (lowest == task->n) {
         (void)worker_finite(worker, y, task->n);
-        if (buffon_priv_shape_variants(worker->setting->shape) > 1)
+        if (buffon_priv_shape_variants(&worker->plan->shape) > 1)
             worker_pairs(worker, y, task->n);
         worker_add(worker, task, y, replaced);
     }
@@ -279,7 +270,7 @@ static buffon_status worker_doubtful(buffon_priv_worker *worker, const buffon_pr
 
 buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_priv_task *task)
 {
-    const buffon_priv_shape *shape = worker->setting->shape;
+    const buffon_priv_shape *shape = &worker->plan->shape;
     const double *y = NULL;
     size_t bad = 0;
     buffon_status status = worker_evaluate(worker, task, &y, &bad);
@@ -290,10 +281,11 @@ buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_
         return BUFFON_OK;
     }
     if (y != NULL && (status == BUFFON_OK || bad > 0))
-        status = worker_doubtful(worker, task, y == worker->f ? worker->f : worker->y, status, &bad);
+        status =
+            worker_doubtful(worker, task, y == worker->f ? worker->f : worker->y, status, &bad);
     if (status != BUFFON_OK) {
-        worker->bad_index = (task->k * shape->block + bad) * shape->replicates +
-                            task->cell % shape->replicates;
+        worker->bad_index =
+            (task->k * shape->block + bad) * shape->replicates + task->cell % shape->replicates;
         worker->bad_stratum = task->cell / shape->replicates;
     }
     return status;

@@ -2,8 +2,8 @@
 #ifndef BUFFON_WORKER_H
 #define BUFFON_WORKER_H
 
-#include "engine.h"
 #include "moments.h"
+#include "plan.h"
 
 /** Block k of a cell: points k block, ..., n of them. */
 typedef struct buffon_priv_task {
@@ -12,17 +12,8 @@ typedef struct buffon_priv_task {
     size_t n;
 } buffon_priv_task;
 
-/** What all workers of a run read and none writes. */
-typedef struct buffon_priv_setting {
-    const buffon_priv_problem *problem;
-    const buffon_run *run; /* with its defaults */
-    const buffon_points *points;
-    const buffon_priv_shape *shape;
-    void *const *table; /* [cells] of the point set */
-} buffon_priv_setting;
-
 typedef struct buffon_priv_worker {
-    const buffon_priv_setting *setting;
+    const buffon_priv_plan *plan;
     double *memory; /* that the arrays below are cut from */
     double *u, *x, *pdf, *f, *p, *y, *pair, *row;
     buffon_priv_moments *moments; /* [series] */
@@ -34,14 +25,11 @@ typedef struct buffon_priv_worker {
 } buffon_priv_worker;
 
 /** Gives a worker its memory for blocks of at most n points: BUFFON_OK or BUFFON_E_NOMEM. */
-buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_priv_setting *setting,
+buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_priv_plan *plan,
                                       size_t n);
 void buffon_priv_worker_free(buffon_priv_worker *worker);
 
 /** Evaluates a block and adds it to the worker's cells; on failure nothing is added. */
 buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_priv_task *task);
-
-/** Where the points of a cell come from. */
-buffon_rng_key buffon_priv_cell_key(const buffon_priv_setting *setting, size_t cell);
 
 #endif

@@ -143,8 +143,8 @@ static void tell_convergence(story *s)
                "status = buffon_importance(&e, &f, &plane, NULL);");
     draw_errors(story_figure(s, "one"), rms, stated, REPEATS);
     story_caption(s, "Dots with bars: the true error, root mean square over %d runs of each size. "
-                  "Lines: the standard error that those runs themselves stated. The dots lie on "
-                  "the lines, so the error bars can be believed.", (int)REPEATS);
+                  "Lines: the standard error that those runs themselves stated. But for their own "
+                  "noise the dots lie on the lines: the error bars can be believed.", (int)REPEATS);
     for (int m = 0; m < METHODS; m++) {
         story_share(s, 0.7 + 0.04 * m, 0.74 + 0.04 * m);
         buffon_estimate e = grow(m, 512, story_run(s, 1 << 20));

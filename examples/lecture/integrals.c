@@ -216,7 +216,7 @@ static void tell_rejection(story *s)
     story_code(s, "double lo = 0, hi = 3, height = 0.5;\n"
                "buffon_run run = {.samples = 600};\n"
                "status = buffon_rejection(&e, &f, &lo, &hi, height, &run);\n"
-               "printf(\"%g, surely between %g and %g\\n\", e.value, e.lo, e.hi);");
+               "printf(\"%g, 95 %% sure between %g and %g\\n\", e.value, e.lo, e.hi);");
     draw_rejection(s, &run, SHOWN);
     story_caption(s, "%.0f of %d points fall under the curve: <i>&alpha;</i> &asymp; %.3f, and the "
                   "interval of Clopper and Pearson runs from %.3f to %.3f. The exact area is %.4f.",

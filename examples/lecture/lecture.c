@@ -167,7 +167,6 @@ static void write_page(story *s, const char *path)
 {
     text document = {0};
     story_finish(s, &document);
-    make_way(path);
     FILE *file = fopen(path, "wb");
     if (file == NULL)
         give_up(path, strerror(errno));
@@ -188,6 +187,7 @@ int main(int argc, char **argv)
         free(s);
         return 2;
     }
+    make_way(path);
     for (size_t i = 0; i < sizeof chapters / sizeof *chapters; i++)
         whole += chapters[i].weight;
     for (size_t i = 0; i < sizeof chapters / sizeof *chapters; i++) {

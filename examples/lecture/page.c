@@ -119,7 +119,8 @@ static const char page_tables[] =
     "@media(max-width:640px){body{font-size:17px}nav ol{columns:1}header{padding-top:40px}"
     "h2{font-size:26px}.formula{font-size:18px;padding-left:14px}}\n"
     "@media print{:root{--paper:#fff}body{font-size:10.5pt}.lead{font-size:13pt}"
-    "table{font-size:8pt}.all table{font-size:7.4pt}td:first-child{min-width:0}main{max-width:none;padding:0}section{margin-top:28px}"
+    "table{font-size:8pt}.all table{font-size:7.4pt}td:first-child{min-width:0}"
+    "main{max-width:none;padding:0}section{margin-top:28px}"
     "figure,pre,.formula,.table tr{break-inside:avoid}h2,.no,.says{break-after:avoid}"
     "pre{white-space:pre-wrap;border:1px solid var(--rule)}a{color:inherit}}\n";
 

@@ -20,15 +20,17 @@ struct buffon_density;
 
 /** What a density can do. A user's own density is one of these tables and a buffon_density with it.
  *
- *  Each function returns 0, or non-zero when it fails: the estimate then fails with
- *  BUFFON_E_PDF. Functions may be called by several threads at once. `g` is the density itself.
+ *  Each function returns 0, or non-zero when it fails: the estimate then fails with BUFFON_E_PDF
+ *  (those of inversion.h: BUFFON_E_INVERSION). Functions may be called by several threads at once.
+ *  `g` is the density itself.
  */
 typedef struct buffon_density_ops {
     /* x[dim*n] and, unless pdf is NULL, pdf[n] > 0 from u[uniforms*n] in (0, 1). Required. */
-    int (*sample)(double *x, double *pdf, const double *u, size_t n, const struct buffon_density *g);
+    int (*sample)(double *x, double *pdf, const double *u, size_t n,
+                  const struct buffon_density *g);
     /* pdf[n] >= 0 at any x[dim*n]; 0 outside the support. NULL where there is none. */
     int (*pdf)(double *pdf, const double *x, size_t n, const struct buffon_density *g);
-    /* log of pdf[n], for densities whose pdf may leave the doubles. NULL: the log of pdf is taken. */
+    /* log of pdf[n], for densities whose pdf may leave the doubles. NULL: log of pdf is taken. */
     int (*log_pdf)(double *log_pdf, const double *x, size_t n, const struct buffon_density *g);
     /* u[uniforms*n] in (0, 1) from x[dim*n] in the support. NULL where there is none. */
     int (*invert)(double *u, const double *x, size_t n, const struct buffon_density *g);
@@ -59,8 +61,8 @@ typedef struct buffon_density {
  *  Out:     x[dim*n]
  *           pdf[n]         may be NULL; equals buffon_density_pdf at x up to rounding
  *  In:      u[uniforms*n]  in (0, 1); must not overlap the outputs; n = 0 does nothing
- *  Returns: BUFFON_OK; the status the density carries; BUFFON_E_NULL; BUFFON_E_DIM; BUFFON_E_PDF if a
- *           user's density failed. Outputs are NaN unless BUFFON_OK.
+ *  Returns: BUFFON_OK; the status the density carries; BUFFON_E_NULL; BUFFON_E_DIM; BUFFON_E_PDF if
+ *           a user's density failed. Outputs are NaN unless BUFFON_OK.
  *  Since:   0.1
  */
 BUFFON_API BUFFON_CHECK buffon_status buffon_density_sample(double *x, double *pdf, const double *u,
@@ -99,8 +101,8 @@ BUFFON_API BUFFON_CHECK buffon_status buffon_density_invert(double *u, const dou
 /** Is this density usable? Checks what can be seen from outside.
  *
  *  In:      g
- *  Returns: BUFFON_OK; the status it carries; BUFFON_E_NULL (g, its table, or sample); BUFFON_E_DIM;
- *           BUFFON_E_RESERVED
+ *  Returns: BUFFON_OK; the status it carries; BUFFON_E_NULL (g, its table, or sample);
+ *           BUFFON_E_DIM; BUFFON_E_RESERVED
  *  Since:   0.1
  */
 BUFFON_API BUFFON_CHECK buffon_status buffon_density_check(const buffon_density *g);

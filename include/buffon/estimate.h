@@ -37,7 +37,7 @@ typedef struct buffon_estimate {
     buffon_status status; /* as returned */
     uint32_t doubts;      /* all reservations: BUFFON_DOUBT(BUFFON_W_...) */
     buffon_interval_kind interval;
-    uint32_t looks;       /* at how many sample counts the run may have stopped; 1: only at the end */
+    uint32_t looks;       /* sample counts at which the run may have stopped; 1: only the end */
     double min, max;      /* of the primary estimates; NaN for self-normalised ones */
     double max_share;     /* of the squared error, what its largest term carries: 1/n at best.
                            * Self-normalised: largest squared weight over their sum */

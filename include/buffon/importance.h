@@ -39,8 +39,8 @@ BUFFON_API BUFFON_CHECK buffon_status buffon_expectation(buffon_estimate *out,
 /** The expectation of h under a density p that is known up to a factor only:
  *  sum of w h / sum of w with w = p(X) / g(X), X ~ g (self-normalised importance sampling).
  *
- *  Out:     out[components of h]  ess = (sum w)^2 / sum w^2; max_share and tail_index are those of w.
- *                                 variance is n std_error^2
+ *  Out:     out[components of h]  ess = (sum w)^2 / sum w^2; max_share and tail_index are those of
+ *                                 w. variance is n std_error^2
  *  In:      h        of g->dim coordinates
  *           p        >= 0, one component, of g->dim coordinates; any factor
  *           g        density with its pdf (any factor too), positive wherever p is

@@ -13,7 +13,8 @@ BUFFON_BEGIN
  *
  *  Out:     out[components]
  *  In:      f        of one coordinate
- *           how      the quantile function with its pdf, or CDF and pdf, or a table: see inversion.h
+ *           how      the quantile function with its pdf, or CDF and pdf, or a table: see
+ *                    inversion.h
  *           run      options
  *  Returns: as buffon_importance; what buffon_inverse refuses
  *  Since:   0.1

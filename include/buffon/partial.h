@@ -6,8 +6,8 @@
  *
  *     buffon_partial p = {0};                            empty
  *     buffon_uniform(&e, &f, lo, hi, &(buffon_run){.samples = 1000000, .partial = &p});
- *     buffon_uniform(&e, &f, lo, hi, &(buffon_run){.samples = 2000000, .partial = &p});   the second half
- *     buffon_partial_free(&p);
+ *     buffon_uniform(&e, &f, lo, hi, &(buffon_run){.samples = 2000000, .partial = &p});
+ *     buffon_partial_free(&p);                           the second call did the second half
  */
 #ifndef BUFFON_PARTIAL_H
 #define BUFFON_PARTIAL_H
@@ -29,8 +29,8 @@ typedef struct buffon_partial {
  *
  *  In/Out:  into  unchanged on error; an empty one becomes a copy of from
  *  In:      from  empty: nothing happens; not into itself (BUFFON_E_OVERLAP unless empty)
- *  Returns: BUFFON_OK, BUFFON_E_NULL, BUFFON_E_MISMATCH (another run: estimator, domain, options, seed,
- *           samples or id), BUFFON_E_OVERLAP (a block in both), BUFFON_E_NOMEM
+ *  Returns: BUFFON_OK, BUFFON_E_NULL, BUFFON_E_MISMATCH (another run: estimator, domain, options,
+ *           seed, samples or id), BUFFON_E_OVERLAP (a block in both), BUFFON_E_NOMEM
  *  Repeat:  associative and commutative to the last bit
  *  Since:   0.1
  */
@@ -42,8 +42,8 @@ BUFFON_API BUFFON_CHECK buffon_status buffon_partial_merge(buffon_partial *into,
  *  Out:     out[components]
  *  In:      partial
  *           confidence  in (0, 1); 0 means 0.95
- *  Returns: as the run; BUFFON_W_INCOMPLETE where blocks are missing; BUFFON_E_EMPTY, BUFFON_E_NULL,
- *           BUFFON_E_CONFIDENCE
+ *  Returns: as the run; BUFFON_W_INCOMPLETE where blocks are missing; BUFFON_E_EMPTY,
+ *           BUFFON_E_NULL, BUFFON_E_CONFIDENCE
  *  Since:   0.1
  */
 BUFFON_API BUFFON_CHECK buffon_status buffon_partial_estimate(buffon_estimate *out,
@@ -69,8 +69,8 @@ BUFFON_API size_t buffon_partial_components(const buffon_partial *partial);
 /** How many bytes buffon_partial_save writes.
  *
  *  In:      partial  an empty one has a size too
- *  Returns: depends on the problem alone (components, strata, replicates, parts), never on how much is
- *           done: every part of a run has the same size. 0 for NULL
+ *  Returns: depends on the problem alone (components, strata, replicates, parts), never on how much
+ *           is done: every part of a run has the same size. 0 for NULL
  *  Since:   0.1
  */
 BUFFON_API size_t buffon_partial_size(const buffon_partial *partial);
@@ -92,8 +92,8 @@ BUFFON_API BUFFON_CHECK buffon_status buffon_partial_save(void *bytes, size_t si
  *  Returns: BUFFON_OK, BUFFON_E_NULL, BUFFON_E_SIZE (truncated), BUFFON_E_CORRUPT, BUFFON_E_NOMEM
  *  Since:   0.1
  */
-BUFFON_API BUFFON_CHECK buffon_status buffon_partial_load(buffon_partial *partial, const void *bytes,
-                                                          size_t size);
+BUFFON_API BUFFON_CHECK buffon_status buffon_partial_load(buffon_partial *partial,
+                                                          const void *bytes, size_t size);
 
 /** Frees what hangs on a partial and leaves it empty. NULL and {0} are allowed.
  *

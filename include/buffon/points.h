@@ -17,14 +17,14 @@ BUFFON_BEGIN
 typedef enum buffon_design {
     BUFFON_DESIGN_INDEPENDENT = 0, /* from the spread of the values */
     BUFFON_DESIGN_ANTITHETIC = 1,  /* points 2i and 2i + 1 are a pair; pairs are independent */
-    BUFFON_DESIGN_STRATIFIED = 2,  /* the pair shares a cell; `round` points visit every cell alike */
+    BUFFON_DESIGN_STRATIFIED = 2,  /* a pair shares a cell; `round` points visit every cell alike */
     BUFFON_DESIGN_REPLICATES = 3,  /* from the spread of the means of independent replicates */
     BUFFON_DESIGN_NONE = 4         /* not random: no standard error */
 } buffon_design;
 
 /** The stretch of points asked for: first, ..., first + n - 1 of one replicate. */
 typedef struct buffon_points_block {
-    buffon_rng_key key; /* seed, stream, purpose, stratum, replicate: all randomness comes from it */
+    buffon_rng_key key; /* seed, stream, purpose, stratum, replicate: the source of randomness */
     uint64_t first;
     size_t n;
     size_t dim;
@@ -36,7 +36,7 @@ typedef struct buffon_points {
     /* u[j*n + i] in (0, 1): coordinate j of point first + i. Non-zero: failure (BUFFON_E_POINTS).
      * A pure function of its arguments; several threads call it at once. Required. */
     int (*fill)(double *u, const buffon_points_block *block, const struct buffon_points *self);
-    /* Bytes of table that `prepare` wants for a dimension; NULL: none. SIZE_MAX: not for that dim. */
+    /* Bytes of table that `prepare` wants for a dimension; NULL: none. SIZE_MAX: refused. */
     size_t (*table_size)(size_t dim, const struct buffon_points *self);
     /* Makes the table (aligned for any type) that `fill` then reads, once for each stratum and
      * replicate of a run. Non-zero: failure. */
@@ -62,9 +62,9 @@ BUFFON_API buffon_points buffon_points_random(void);
 
 /** Antithetic pairs: a random point u and its mirror image 1 - u.
  *
- *  Law:     each point is uniform; the error comes from the means of the pairs. Exact for integrands
- *           that are odd about the middle, never worse than plain for monotone ones, and twice the
- *           variance for even ones
+ *  Law:     each point is uniform; the error comes from the means of the pairs. Exact for
+ *           integrands that are odd about the middle, never worse than plain for monotone ones, and
+ *           twice the variance for even ones
  *  Draws:   dim uniforms a pair
  *  Source:  J. Hammersley, K. Morton (1956), A new Monte Carlo technique: antithetic variates
  *  Since:   0.1
@@ -75,8 +75,8 @@ BUFFON_API buffon_points buffon_points_antithetic(void);
  *  points. Samples are rounded up to a multiple of 2 k^dim.
  *
  *  In:      k  cells along each coordinate, >= 1; a dimension with k^dim > 2^40 is refused
- *  Law:     the cells of each sweep are visited in a random order, so a run that ends within a sweep is
- *           unbiased too; its error then counts the spread between cells
+ *  Law:     the cells of each sweep are visited in a random order, so a run that ends within a
+ *           sweep is unbiased too; its error then counts the spread between cells
  *  Source:  S. Haber (1967), A modified Monte-Carlo quadrature II
  *  Since:   0.1
  */

@@ -36,8 +36,8 @@ typedef struct buffon_rejection_report {
 
 /** Draws X ~ f / integral f by accepting X ~ g with probability f / (envelope g).
  *
- *  Out:     x[dim*n]  coordinate-major points. On an error those after the accepted ones are NaN, but
- *                     for BUFFON_E_BOUND the first of them is the point where the bound fails
+ *  Out:     x[dim*n]  coordinate-major points. On an error those after the accepted ones are NaN,
+ *                     but for BUFFON_E_BOUND the first of them is the point where the bound fails
  *           report    may be NULL
  *  In/Out:  rng       moves on by (uniforms of g + 1) words a try
  *  In:      f         >= 0; need not be normalised; one component; scalar or batch

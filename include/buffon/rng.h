@@ -20,7 +20,8 @@
  * Philox permutes its counters under one key. So the two blocks of a lane differ, which excludes
  * the all-zero state; and no two lanes of one seed have a block with the same key and counter.
  *
- * Source: J. Salmon, M. Moraes, R. Dror, D. Shaw (2011), Parallel random numbers: as easy as 1, 2, 3;
+ * Source: J. Salmon, M. Moraes, R. Dror, D. Shaw (2011), Parallel random numbers: as easy as
+ *         1, 2, 3;
  *         D. Blackman, S. Vigna (2021), Scrambled linear pseudorandom number generators;
  *         D. Lemire (2019), Fast random integer generation in an interval.
  */

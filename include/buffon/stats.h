@@ -2,8 +2,8 @@
  *
  * The sum and the sum of squares are kept as whole numbers wide enough for every double, so adding
  * is associative: any order and any grouping of the same numbers gives the same bits, and nothing
- * cancels (mean 1e15 with variance 1/12 is as good as mean 0). A zeroed struct is empty; a copy is a
- * checkpoint; nothing is allocated.
+ * cancels (mean 1e15 with variance 1/12 is as good as mean 0). A zeroed struct is empty; a copy is
+ * a checkpoint; nothing is allocated.
  */
 #ifndef BUFFON_STATS_H
 #define BUFFON_STATS_H
@@ -20,7 +20,7 @@ BUFFON_BEGIN
 /** A sample: count, exact sums, extremes and the largest magnitudes. The fields are private. */
 typedef struct buffon_stats {
     uint64_t count;                         /* finite values */
-    uint64_t nonfinite;                     /* values that were NaN or infinite: counted, not added */
+    uint64_t nonfinite;                     /* values that were NaN or infinite: not added */
     double min, max;                        /* of the finite values; 0 while there is none */
     uint64_t sum[BUFFON_STATS_SUM];         /* in units of 2^-1152 */
     uint64_t squares[BUFFON_STATS_SQUARES]; /* in units of 2^-2304 */
@@ -31,13 +31,13 @@ typedef struct buffon_stats {
 typedef struct buffon_summary {
     uint64_t count, nonfinite;
     double mean;
-    double variance;   /* unbiased (n - 1); NaN for one value; infinity or 0 if it leaves the doubles */
-    double std_error;  /* of the mean, sqrt(variance / n), also where the variance itself overflows */
+    double variance;   /* unbiased (n - 1); NaN for one value; infinity or 0 outside the doubles */
+    double std_error;  /* of the mean, sqrt(variance / n), also where the variance overflows */
     double min, max;
     double ess;        /* (sum y)^2 / sum y^2: for weights, the effective sample size */
     double max_share;  /* max |y| / |sum y|: for weights, the share of the largest */
-    double tail_index; /* k-hat of the generalised Pareto tail of |y|: above 0.5 the variance, above 1
-                        * the mean is in doubt; NaN below 320 values or for a tail without spread */
+    double tail_index; /* k-hat of the generalised Pareto tail of |y|: above 0.5 the variance is in
+                        * doubt, above 1 the mean. NaN below 320 values or without spread */
 } buffon_summary;
 
 /** Adds numbers to a sample, each exactly.

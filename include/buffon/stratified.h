@@ -1,4 +1,4 @@
-/* Layer 3. Stratification over a list of regions: Omega = gamma + rest, each estimated on its own. */
+/* Layer 3. Stratification: Omega = gamma + rest, each region estimated on its own. */
 #ifndef BUFFON_STRATIFIED_H
 #define BUFFON_STRATIFIED_H
 
@@ -17,10 +17,12 @@ typedef struct buffon_stratum {
 
 /** How samples are given to strata. */
 typedef enum buffon_allocation {
-    BUFFON_ALLOCATION_SHARE = 0, /* in proportion to .share: give the measure of each for proportional
-                                  * allocation, which is never worse than no strata at all */
-    BUFFON_ALLOCATION_NEYMAN = 1 /* in proportion to |weight| times the standard deviation that a pilot
-                                  * found, at least a tenth of what .share would give */
+    /* In proportion to .share. With the measure of each stratum as its share this is proportional
+     * allocation, which is never worse than no strata at all. */
+    BUFFON_ALLOCATION_SHARE = 0,
+    /* In proportion to |weight| times the standard deviation that a pilot found, but at least a
+     * tenth of what .share would give. */
+    BUFFON_ALLOCATION_NEYMAN = 1
 } buffon_allocation;
 
 /** The strata of a problem. */
@@ -28,17 +30,17 @@ typedef struct buffon_strata {
     const buffon_stratum *stratum; /* [count] */
     size_t count;                  /* 1 to 65536 */
     int allocation;                /* a buffon_allocation */
-    uint32_t pilot;                /* points of the pilot in each stratum; 0 means 1024. They are drawn
-                                    * for their own purpose and do not enter the estimate */
+    uint32_t pilot;                /* points of the pilot in each stratum; 0 means 1024. They have
+                                    * numbers of their own and do not enter the estimate */
     uint64_t reserved[4];          /* must be zero */
 } buffon_strata;
 
 /** Estimates the sum over strata of weight times the integral of f: independent estimates added,
  *  errors too.
  *
- *  Out:     out[components]  std_error^2 is the sum of weight^2 variance / n; the interval is Student's
- *                            with Welch and Satterthwaite's degrees of freedom. variance is n
- *                            std_error^2: that of one sample if samples are given as they were
+ *  Out:     out[components]  std_error^2 is the sum of weight^2 variance / n; the interval is
+ *                            Student's with Welch and Satterthwaite's degrees of freedom. variance
+ *                            is n std_error^2: that of one sample if samples are given as they were
  *  In:      f        the common integrand; may be NULL where every stratum has its own
  *           strata   densities of one dimension; run.samples is the total, each stratum's part is
  *                    rounded up and at least 2
