@@ -55,7 +55,7 @@ buffon_status buffon_rejection(buffon_estimate *out, const buffon_integrand *f, 
         const double zero = 0;
         double m;
         int e;
-        buffon_priv_box_volume(&problem.scale_m, &problem.scale_e, lo, hi, f->dim);
+        buffon_priv_box_volume(&problem.scale_m, &problem.scale_e, lo, hi, box.dim);
         buffon_priv_box_volume(&m, &e, &zero, &height, 1);
         problem.scale_m *= m;
         problem.scale_e += e;

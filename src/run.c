@@ -8,6 +8,8 @@
 #include "engine.h"
 #include "options.h"
 
+#define RUN_MOST (UINT32_MAX / sizeof(double)) /* uniforms or coordinates of a point */
+
 /* Draws one point of a cell: what a worker does for a block, for the maths of the point alone. */
 static buffon_status run_draw(double *x, double *u, const buffon_points_block *block,
                               const buffon_points *points, const buffon_density *g)
@@ -35,7 +37,9 @@ buffon_status buffon_priv_run_point(double *x, const buffon_density *g, uint64_t
     buffon_status status = buffon_density_check(g);
     if (x == NULL)
         return BUFFON_E_NULL;
-    for (size_t j = 0; status == BUFFON_OK && j < g->dim; j++)
+    if (g != NULL && (g->dim > RUN_MOST || g->uniforms > RUN_MOST))
+        return BUFFON_E_DIM;
+    for (size_t j = 0; g != NULL && j < g->dim; j++)
         x[j] = NAN;
     if (status == BUFFON_OK)
         status = buffon_priv_run_check(run);

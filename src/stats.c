@@ -15,10 +15,15 @@ void buffon_priv_top_add(double *top, const double *y, size_t n)
         double size = buffon_priv_abs(y[k]);
         if (!(size > top[BUFFON_STATS_TOP - 1]))
             continue;
-        size_t i = BUFFON_STATS_TOP - 1;
-        for (; i > 0 && top[i - 1] < size; i--)
-            top[i] = top[i - 1];
-        top[i] = size;
+        /* Each takes the place of the next smaller, until an empty place is filled or the last is
+         * pushed out: a short list costs no more than it holds. */
+        for (size_t i = 0; i < BUFFON_STATS_TOP && size > 0; i++) {
+            const double kept = top[i];
+            if (kept < size) {
+                top[i] = size;
+                size = kept;
+            }
+        }
     }
 }
 

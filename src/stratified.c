@@ -174,7 +174,11 @@ buffon_status buffon_stratum_sample_at(double *x, const buffon_strata *strata, u
 {
     if (x == NULL || strata == NULL || strata->stratum == NULL)
         return BUFFON_E_NULL;
-    if (strata->count > STRATIFIED_MOST || stratum >= strata->count)
+    if (strata->count > STRATIFIED_MOST || stratum >= strata->count) {
+        const buffon_density *g = strata->count > 0 ? strata->stratum[0].density : NULL;
+        for (size_t j = 0; g != NULL && j < g->dim; j++)
+            x[j] = NAN;
         return BUFFON_E_STRATA;
+    }
     return buffon_priv_run_point(x, strata->stratum[stratum].density, stratum, index, run);
 }

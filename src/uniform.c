@@ -16,6 +16,6 @@ buffon_status buffon_uniform(buffon_estimate *out, const buffon_integrand *f, co
     /* The volume multiplies the mean at the end: there it can neither overflow nor cost a rounding
      * of each value. */
     if (box.status == BUFFON_OK)
-        buffon_priv_box_volume(&problem.scale_m, &problem.scale_e, lo, hi, f->dim);
+        buffon_priv_box_volume(&problem.scale_m, &problem.scale_e, lo, hi, box.dim);
     return buffon_priv_engine_run(out, &problem, run);
 }

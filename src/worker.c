@@ -283,7 +283,9 @@ buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_
     if (y != NULL && (status == BUFFON_OK || bad > 0))
         status =
             worker_doubtful(worker, task, y == worker->f ? worker->f : worker->y, status, &bad);
-    if (status != BUFFON_OK) {
+    if (status == BUFFON_E_POINTS || status == BUFFON_E_NOMEM) {
+        worker->bad_index = UINT64_MAX; /* neither the integrand's nor the density's */
+    } else if (status != BUFFON_OK) {
         worker->bad_index =
             (task->k * shape->block + bad) * shape->replicates + task->cell % shape->replicates;
         worker->bad_stratum = task->cell / shape->replicates;

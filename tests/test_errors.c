@@ -100,7 +100,9 @@ static buffon_status estimate(int estimator, const buffon_integrand *f, const bu
 static void bad_run(buffon_status expected, const buffon_run *run, const char *what)
 {
     const buffon_integrand f = {.scalar = scalar, .dim = 1};
-    for (int i = 0; i < ESTIMATORS; i++) {
+    /* The shares of Neyman's allocation, and so whether the points suffice, follow from the pilot. */
+    const int late = run->points != NULL && expected == BUFFON_E_SAMPLES;
+    for (int i = 0; i < ESTIMATORS - late; i++) {
         char name[128];
         snprintf(name, sizeof name, "%s: %s", estimators[i], what);
         REFUSES(expected, estimate(i, &f, run), name);
@@ -274,8 +276,8 @@ static void bad_density(buffon_status expected, const buffon_density *g, const c
     if (expected == BUFFON_E_UNSUPPORTED)
         return;
     REFUSES(expected, buffon_expectation(e, &f, g, NULL), what);
-    tap_ok(buffon_sample_at(x, g, 0, NULL) == expected, "%s: sample_at: %s",
-           buffon_status_name(expected), what);
+    tap_ok(buffon_sample_at(x, g, 0, NULL) == expected && (g == NULL || g->dim == 0 || isnan(x[0])),
+           "%s: sample_at: %s", buffon_status_name(expected), what);
 }
 
 static int copy(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
@@ -351,6 +353,9 @@ static void test_sizes(void)
     g.uniforms = SIZE_MAX;
     REFUSES(SIZE_MAX > UINT32_MAX ? BUFFON_E_DIM : BUFFON_E_NOMEM,
             buffon_importance(e, &f, &g, NULL), "more uniforms than there are dimensions");
+    double x;
+    g.dim = 1;
+    tap_ok(buffon_sample_at(&x, &g, 0, NULL) == BUFFON_E_DIM, "sample_at: nor for one point");
     g.uniforms = 1;
     g.dim = f.dim = SIZE_MAX;
     REFUSES(SIZE_MAX > UINT32_MAX ? BUFFON_E_DIM : BUFFON_E_NOMEM,
