@@ -62,7 +62,7 @@ examples := $(example_files:%.c=$(BUILD)/%) $(example_trees:%=$(BUILD)/examples/
 benches := $(sort $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c)))
 
 # As many jobs as there are cores unless -j says otherwise.
-ifeq ($(filter -j% --jobserver%,$(MAKEFLAGS)),)
+ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
 MAKEFLAGS += -j$(JOBS)
 endif
 
@@ -180,18 +180,18 @@ battery: $(BUILD)/tests/battery ## dieharder over interleaved streams: hours
 
 asan: ## the test programs with the address sanitizer
 	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/asan \
-	  CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address -fno-sanitize-recover=all'
+	  CFLAGS='-O2 -g -fno-omit-frame-pointer -fsanitize=address -fno-sanitize-recover=all'
 
 ubsan: ## the test programs with the undefined behaviour sanitizer
 	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/ubsan \
-	  CFLAGS='-O1 -g -fsanitize=undefined -fno-sanitize-recover=all'
+	  CFLAGS='-O2 -g -fsanitize=undefined -fno-sanitize-recover=all'
 
 # The sanitizer of older compilers does not find its way about the address space of newer kernels
 # while that is laid out at random.
 tsan: ## the test programs with the thread sanitizer
 	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/tsan \
 	  RUNNER="$$(setarch -R true 2>/dev/null && echo setarch -R)" \
-	  CFLAGS='-O1 -g -fsanitize=thread'
+	  CFLAGS='-O2 -g -fsanitize=thread'
 
 memcheck: ## the test programs under valgrind
 	@$(MAKE) --no-print-directory unit \

@@ -1,7 +1,7 @@
 /* One run by several processes: each does a part, and the parts merge to the last bit of the whole.
  *
- * The ranks are children of fork that send their partial result through a pipe. With MPI the loop is
- * one call, since every rank's partial has the same size:
+ * The ranks are children of fork that send their partial result through a pipe. With MPI the loop
+ * is one call, since every rank's partial has the same size:
  *
  *     MPI_Gather(mine, (int)n, MPI_BYTE, all, (int)n, MPI_BYTE, 0, MPI_COMM_WORLD);
  */
@@ -34,8 +34,9 @@ static int rank_main(uint32_t r, int out)
 {
     buffon_partial p = {0};
     buffon_estimate e; /* of this part alone */
-    const buffon_status s = integrate(&e, &(buffon_run){.samples = 10000000, .seed = 7, .part = r,
-                                                        .parts = RANKS, .partial = &p});
+    const buffon_status s = integrate(
+        &e,
+        &(buffon_run){.samples = 10000000, .seed = 7, .part = r, .parts = RANKS, .partial = &p});
     const size_t n = buffon_partial_size(&p);
     char *bytes = malloc(n);
     size_t sent = 0;

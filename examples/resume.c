@@ -1,7 +1,8 @@
 /* Saves a run while it goes, and goes on after a crash from what was saved, with the same bits.
  *
- * A partial result is written from the progress callback, to a new file that then takes the old one's
- * place, so a crash in the middle of writing loses nothing. Here the "crash" is a cancelled run. */
+ * A partial result is written from the progress callback, to a new file that then takes the old
+ * one's place, so a crash in the middle of writing loses nothing. Here the "crash" is a cancelled
+ * run. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,15 +68,15 @@ static int live(const char *name, checkpoint *c, int calls)
         return 1;
     const buffon_status s = buffon_uniform(
         &e, &(buffon_integrand){.scalar = f, .dim = 1}, &lo, &hi,
-        &(buffon_run){.samples = 1u << 26, .seed = 7, .partial = &p, .progress = keep,
-                      .progress_ctx = c});
+        &(buffon_run){
+            .samples = 1u << 26, .seed = 7, .partial = &p, .progress = keep, .progress_ctx = c});
     buffon_partial_free(&p);
     if (s < 0) {
         fprintf(stderr, "%s\n", buffon_status_string(s));
         return 1;
     }
-    printf("%-10s %10llu samples  %.15f +- %.1e  %s\n", name, (unsigned long long)e.samples, e.value,
-           e.std_error, buffon_status_string(s));
+    printf("%-10s %10llu samples  %.15f +- %.1e  %s\n", name, (unsigned long long)e.samples,
+           e.value, e.std_error, buffon_status_string(s));
     return 0;
 }
 

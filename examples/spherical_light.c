@@ -1,8 +1,9 @@
-/* Direct light from a sphere on a surface: L' = (rho / pi) int L0 cos(theta) dw over the directions in
- * which the sphere is seen. They form a cap, and points of the cap are drawn uniformly by its solid
- * angle, so no sample misses the light.
+/* Direct light from a sphere on a surface: L' = (rho / pi) int L0 cos(theta) dw over the directions
+ * in which the sphere is seen. They form a cap, and points of the cap are drawn uniformly by its
+ * solid angle, so no sample misses the light.
  *
- * A sphere wholly above the horizon gives L' = rho L0 (r / d)^2 cos(angle of its centre), exactly. */
+ * A sphere wholly above the horizon gives L' = rho L0 (r / d)^2 cos(angle of its centre), exactly.
+ */
 #include <math.h>
 #include <stdio.h>
 
@@ -22,9 +23,9 @@ int main(void)
     double normal[3] = {0, 0, 1};
     buffon_estimate e;
     const buffon_density cap = buffon_cap_of_sphere(point, centre, radius);
-    const buffon_status s = buffon_importance(
-        &e, &(buffon_integrand){.scalar = cosine, .dim = 3, .ctx = normal}, &cap,
-        &(buffon_run){.samples = 4096});
+    const buffon_status s =
+        buffon_importance(&e, &(buffon_integrand){.scalar = cosine, .dim = 3, .ctx = normal}, &cap,
+                          &(buffon_run){.samples = 4096});
     if (s < 0) {
         fprintf(stderr, "%s\n", buffon_status_string(s));
         return 1;

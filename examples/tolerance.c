@@ -1,5 +1,5 @@
-/* A vector-valued integrand in six dimensions, evaluated by the batch, to a tolerance, on two threads,
- * with a progress line.
+/* A vector-valued integrand in six dimensions, evaluated by the batch, to a tolerance, on two
+ * threads, with a progress line.
  *
  * The run looks at 2^13, 2^14, ... samples and stops when the interval of every component is narrow
  * enough. The interval that comes back covers as stated although the run chose when to stop. */
@@ -44,7 +44,8 @@ int main(void)
         fprintf(stderr, "%s\n", buffon_status_string(s));
         return 1;
     }
-    /* The integrals factor: a = int_0^1 exp(-t^2) = 0.7468241, b = int_0^1 t^2 exp(-t^2) = 0.1894723. */
+    /* The integrals factor: a = int_0^1 exp(-t^2) = 0.7468241, b = int_0^1 t^2 exp(-t^2) =
+     * 0.1894723. */
     const double a = 0.74682413281242702, b = 0.18947234582049235;
     printf("             estimate    std_error   95 %% interval          exact\n");
     printf("exp(-r2)     %.7f   %.7f   [%.6f, %.6f]   %.7f\n", e[0].value, e[0].std_error, e[0].lo,

@@ -70,9 +70,9 @@ static beta_law beta_law_make(double a, double b)
     return law;
 }
 
-/* The deviance, for a <= b: (a + b) log(y0 + x0 e^mu) - a mu. Near the mean the terms cancel, down to
- * an error of 1e-16 a mu; but there the deviance grows as a mu, so in mu the error is 1e-16. (For
- * a > b the terms would be of size a log(a / b).) Where e^mu overflows it is divided out. */
+/* The deviance, for a <= b: (a + b) log(y0 + x0 e^mu) - a mu. Near the mean the terms cancel, which
+ * leaves an error of 1e-16 a mu; but its derivative there is about a mu, so in mu the error is
+ * 1e-16. (For a > b the terms would be far larger.) Where e^mu overflows it is divided out. */
 static double beta_deviance(double a, double b, double mu)
 {
     const double n = a + b;
@@ -82,8 +82,8 @@ static double beta_deviance(double a, double b, double mu)
     return n * buffon_priv_log1p(a / n * buffon_priv_expm1(mu)) - a * mu;
 }
 
-/* a y - b x = (a + b) (x0 - x), where x0 - x is formed without cancellation. Right of the mean all is
- * divided by e^mu, which might overflow. */
+/* a y - b x = (a + b) (x0 - x), where x0 - x is formed without cancellation. Right of the mean all
+ * is divided by e^mu, which might overflow. */
 static beta_place beta_place_make(const beta_law *law, double mu)
 {
     const double fall = buffon_priv_exp(-buffon_priv_abs(mu));

@@ -162,13 +162,6 @@ double buffon_priv_log1p(double x)
     return u < 0 ? ELEMENTARY_NAN : result;
 }
 
-double buffon_priv_log1p_excess(double x)
-{
-    const double s = x / (2 + x);
-    const double close = s * (x - elementary_log_rest(s));
-    return x > -0.29 && x < 0.41 ? close : x - buffon_priv_log1p(x);
-}
-
 /* ---- exponential -------------------------------------------------------------------------- */
 
 /* x = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r and k. x is in the

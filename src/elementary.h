@@ -56,10 +56,6 @@ double buffon_priv_log(double x);
 /* log(1 + x), within 0.9 ulp. log1p(-1) is -infinity; NaN below -1. */
 double buffon_priv_log1p(double x);
 
-/* x - log(1 + x) for x > -1: never negative, within 3 ulp however small x is; within 8 ulp where
- * |x| is above 0.4. */
-double buffon_priv_log1p_excess(double x);
-
 /* exp(x), within 1 ulp, rounded once where it is subnormal. */
 double buffon_priv_exp(double x);
 

@@ -1,5 +1,6 @@
 #include "guard.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 
 #include "exact.h"
 #include "record.h"
+#include "spread.h"
 
 /* The saved form: 64-bit words, little end first.
  *
@@ -326,5 +328,30 @@ buffon_status buffon_partial_estimate(buffon_estimate *out, const buffon_partial
         partial != NULL && partial->more != NULL ? buffon_partial_components(partial) : 1;
     for (size_t k = 0; k < n; k++)
         out[k] = buffon_priv_estimate_failed(status);
+    return status;
+}
+
+buffon_status buffon_partial_covariance(double *cov, const buffon_partial *partial)
+{
+    const size_t n = buffon_partial_components(partial);
+    if (cov == NULL || partial == NULL)
+        return BUFFON_E_NULL;
+    if (n == 0)
+        return BUFFON_E_EMPTY;
+    const buffon_priv_record *record = buffon_priv_partial_record(partial);
+    buffon_status status = record->shape.covariance ? BUFFON_OK : BUFFON_E_UNSUPPORTED;
+    for (size_t s = 0; s < record->shape.strata && status == BUFFON_OK; s++)
+        status = buffon_priv_spread_count(record, s) > 0 ? BUFFON_OK : BUFFON_E_EMPTY;
+    for (size_t k = 0; k < n; k++) {
+        for (size_t l = 0; l < n; l++) {
+            double *entry = &cov[k * n + l];
+            if (status != BUFFON_OK)
+                *entry = NAN;
+            else if (l < k)
+                *entry = cov[l * n + k];
+            else
+                *entry = buffon_priv_wide_to_double(buffon_priv_spread_of(record, k, l).square);
+        }
+    }
     return status;
 }

@@ -2,6 +2,8 @@
 
 #include <buffon/points.h>
 
+#include "mix.h"
+
 /* Points are worked on in tiles that fit the stack and the first cache. */
 #define POINTS_TILE 1024
 
@@ -188,7 +190,10 @@ buffon_points buffon_points_replay(const double *u, size_t dim, size_t count, bu
                             .data = u};
     const int known = design == BUFFON_DESIGN_INDEPENDENT || design == BUFFON_DESIGN_ANTITHETIC ||
                       design == BUFFON_DESIGN_NONE;
-    if (u != NULL && count > 0 && known)
-        points.fill = points_fill_replay; /* without it the set is refused where it is used */
+    if (u == NULL || count == 0 || !known || dim > SIZE_MAX / count)
+        return points; /* without `fill` it is refused where it is used */
+    points.fill = points_fill_replay;
+    for (size_t i = 0; i < dim * count; i++) /* partial results tell numbers apart by this */
+        points.param[1] = buffon_priv_mix_double(points.param[1], u[i]);
     return points;
 }

@@ -16,6 +16,12 @@ typedef struct buffon_priv_wide {
 /* x 2^e exactly, for any double x. */
 buffon_priv_wide buffon_priv_wide_make(double x, int e);
 
+/* x itself. */
+static inline buffon_priv_wide buffon_priv_wide_of(double x)
+{
+    return buffon_priv_wide_make(x, 0);
+}
+
 /* A count, rounded to 53 bits. */
 buffon_priv_wide buffon_priv_wide_count(uint64_t n);
 

@@ -99,20 +99,6 @@ static long double test_cospil(double x)
     }
 }
 
-static long double test_excessl(double x)
-{
-    long double term = x, sum = 0, y = x;
-    int k;
-    if (fabs(x) > 0.05) {
-        return y - log1pl(y);
-    }
-    for (k = 2; k < 20; k++) {
-        term *= -y;
-        sum -= term / k;
-    }
-    return sum;
-}
-
 /* One step of Newton's from the value in question. */
 static long double test_normall(double u)
 {
@@ -174,11 +160,6 @@ static double test_above_minus_one(int kind)
     }
 }
 
-static double test_small(int kind)
-{
-    return kind == 0 ? test_uniform(-0.29, 0.41) : test_uniform(-0.29, 0.29) * 0x1p-15;
-}
-
 static double test_exponent(int kind)
 {
     switch (kind) {
@@ -206,8 +187,6 @@ static const test_function test_functions[] = {
     {"cospi", buffon_priv_cospi, test_cospil, test_turns, 5, 1.4},
     {"log", buffon_priv_log, test_logl, test_positive, 5, 0.9},
     {"log1p", buffon_priv_log1p, test_log1pl, test_above_minus_one, 5, 0.9},
-    {"log1p_excess, small", buffon_priv_log1p_excess, test_excessl, test_small, 2, 3},
-    {"log1p_excess", buffon_priv_log1p_excess, test_excessl, test_above_minus_one, 5, 8},
     {"exp", buffon_priv_exp, test_expl, test_exponent, 5, 1.0},
     {"expm1", buffon_priv_expm1, test_expm1l, test_exponent, 5, 1.4},
     {"normal_quantile", buffon_priv_normal_quantile, test_normall, test_probability, 5, 8},
@@ -322,9 +301,6 @@ static const struct {
     {"log1p", buffon_priv_log1p, INFINITY, INFINITY},
     {"log1p", buffon_priv_log1p, -INFINITY, NAN},
     {"log1p", buffon_priv_log1p, NAN, NAN},
-    {"log1p_excess", buffon_priv_log1p_excess, 0.0, 0.0},
-    {"log1p_excess", buffon_priv_log1p_excess, -1, INFINITY},
-    {"log1p_excess", buffon_priv_log1p_excess, NAN, NAN},
     {"exp", buffon_priv_exp, -0.0, 1},
     {"exp", buffon_priv_exp, 0x1p-1074, 1},
     {"exp", buffon_priv_exp, 709.79, INFINITY},

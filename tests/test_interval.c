@@ -193,6 +193,34 @@ static void test_exact_binomial(void)
     tap_ok(worst <= 2e-12, "Clopper-Pearson up to n = 60 solves the binomial sums: %.2g", worst);
 }
 
+/* k - n p = -+ z sqrt(n p (1 - p)) at both ends. */
+static void test_wilson(void)
+{
+    static const double confidences[] = {1e-6, 0.5, 0.95, 1 - 0x1p-50};
+    double worst = 0;
+    int n, k, c, outside = 0;
+    for (n = 1; n <= 60; n++) {
+        for (k = 0; k <= n; k++) {
+            for (c = 0; c < 4; c++) {
+                const double z = buffon_priv_normal_two_sided(1 - confidences[c]);
+                double lo, hi;
+                outside += buffon_interval_wilson(&lo, &hi, (uint64_t)k, (uint64_t)n,
+                                                  confidences[c]) != BUFFON_OK;
+                outside += !(0 <= lo && lo <= hi && hi <= 1) || (k == 0 && lo != 0) ||
+                           (k == n && hi != 1);
+                if (k > 0 && c > 0) {
+                    worst = fmax(worst, test_error((k - n * lo) / sqrt(n * lo * (1 - lo)), z));
+                }
+                if (k < n && c > 0 && hi < 0.99) {
+                    worst = fmax(worst, test_error((n * hi - k) / sqrt(n * hi * (1 - hi)), z));
+                }
+            }
+        }
+    }
+    tap_ok(outside == 0, "Wilson's interval lies in [0, 1], exactly 0 and 1 at the ends");
+    tap_ok(worst <= 1e-13, "Wilson's interval solves its equation: %.2g", worst);
+}
+
 static void test_student_closed(void)
 {
     double worst_1 = 0, worst_2 = 0, q;
@@ -205,6 +233,21 @@ static void test_student_closed(void)
     }
     tap_ok(worst_1 <= TEST_TOLERANCE, "t with 1 degree of freedom is a tangent: %.2g", worst_1);
     tap_ok(worst_2 <= TEST_TOLERANCE, "t with 2 degrees of freedom is algebraic: %.2g", worst_2);
+}
+
+/* Far out P(T > t) = Gamma((v + 1) / 2) / (Gamma(v / 2) sqrt(pi v)) v^((v - 1) / 2) t^-v. */
+static void test_student_far(void)
+{
+    static const double dofs[] = {1.2, 1.5, 2.5, 3, 4.75, 9};
+    double worst = 0;
+    int i;
+    for (i = 0; i < 6; i++) {
+        const double v = dofs[i], q = i < 3 ? 1e-300 : 1e-150;
+        const double front = tgamma(0.5 * v + 0.5) / (tgamma(0.5 * v) * sqrt(acos(-1) * v));
+        const double want = pow(front / q, 1 / v) * pow(v, 0.5 - 0.5 / v);
+        worst = fmax(worst, test_error(buffon_student_upper(q, v), want));
+    }
+    tap_ok(worst <= TEST_TOLERANCE, "the far tail of t is a power: %.2g", worst);
 }
 
 /* The series in 1 / dof and the beta quantile meet. */
@@ -399,9 +442,9 @@ static void test_bits(void)
             binomial = test_hash(test_hash(binomial, lo), hi);
         }
     }
-    test_frozen("t", student, UINT64_C(0xdffe38196febba81));
-    test_frozen("beta", beta, UINT64_C(0x9454594f221319c6));
-    test_frozen("intervals", binomial, UINT64_C(0x09505957a6f0f338));
+    test_frozen("t", student, UINT64_C(0xa791102b8b81123e));
+    test_frozen("beta", beta, UINT64_C(0x976a4438c74d1643));
+    test_frozen("intervals", binomial, UINT64_C(0xf0f78a0b936152e6));
 }
 
 int main(void)
@@ -415,7 +458,9 @@ int main(void)
     test_intervals("wilson", 2);
     test_intervals("normal_clt", 24);
     test_exact_binomial();
+    test_wilson();
     test_student_closed();
+    test_student_far();
     test_student_seam();
     test_beta_closed();
     test_symmetry();

@@ -87,6 +87,7 @@ BUFFON_API buffon_points buffon_points_jitter(uint64_t k);
  *  In:      u[dim*count]  coordinate-major, in (0, 1); must outlive the run
  *           dim, count    the run must have this dimension and at most so many samples
  *           design        what the caller vouches for: INDEPENDENT, ANTITHETIC or NONE
+ *  Cost:    reads the numbers once, to tell partial results of different ones apart
  *  Since:   0.1
  */
 BUFFON_API buffon_points buffon_points_replay(const double *u, size_t dim, size_t count,

@@ -1,5 +1,5 @@
-/* What a number costs, against the same loops written plainly with libm and against GSL where it is
- * installed. Every group is timed in one run, the contestants in turn; "ratio" is the time of a line
+/* What a number costs, against the same loops written plainly with libm and against GSL where it
+ * is installed. Every group is timed in one run, the contestants in turn; "ratio" is the time of a line
  * over the time of the group's first. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -122,11 +122,11 @@ static double ours_density(const buffon_density *g, size_t items)
     return points[1] + pdf[1];
 }
 
-#define OURS(name, constructor)                                                                     \
-    static double ours_##name(size_t items)                                                         \
-    {                                                                                               \
-        const buffon_density g = constructor;                                                       \
-        return ours_density(&g, items);                                                             \
+#define OURS(name, constructor)                                                                   \
+    static double ours_##name(size_t items)                                                       \
+    {                                                                                             \
+        const buffon_density g = constructor;                                                     \
+        return ours_density(&g, items);                                                           \
     }
 OURS(sphere, buffon_sphere())
 OURS(cap, buffon_cap(0.5))
@@ -136,15 +136,15 @@ OURS(disk, buffon_disk(1))
 OURS(concentric, buffon_disk_concentric(1))
 OURS(box, buffon_box(zeros, ones, 2))
 
-#define PLAIN(name, call)                                                                           \
-    static double plainly_##name(size_t items)                                                      \
-    {                                                                                               \
-        double x[3] = {0}, sum = 0;                                                                 \
-        for (size_t i = 0; i < items; i++) {                                                        \
-            call;                                                                                   \
-            sum += x[0];                                                                            \
-        }                                                                                           \
-        return sum;                                                                                 \
+#define PLAIN(name, call)                                                                         \
+    static double plainly_##name(size_t items)                                                    \
+    {                                                                                             \
+        double x[3] = {0}, sum = 0;                                                               \
+        for (size_t i = 0; i < items; i++) {                                                      \
+            call;                                                                                 \
+            sum += x[0];                                                                          \
+        }                                                                                         \
+        return sum;                                                                               \
     }
 PLAIN(sphere, plain_sphere(x))
 PLAIN(cap, plain_cap(x, 0.5))

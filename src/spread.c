@@ -1,0 +1,257 @@
+#include "guard.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "exact.h"
+#include "spread.h"
+#include "stats_priv.h"
+
+/* The exact sample of one series of a stratum, over its replicates from r on to the end. */
+void buffon_priv_spread_pool(buffon_stats *pool, const buffon_priv_record *record, size_t stratum,
+                             size_t r, size_t end, size_t series)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    const size_t all = buffon_priv_shape_series(shape);
+    memset(pool, 0, sizeof *pool);
+    for (; r < end; r++) {
+        const size_t at = (stratum * (size_t)shape->replicates + r) * all + series;
+        buffon_stats_merge(pool, &record->whole.stats[at]);
+        buffon_stats_merge(pool, &record->tail.stats[at]);
+    }
+}
+
+static void spread_pool_cross(uint64_t *limbs, const buffon_priv_record *record, size_t stratum,
+                              size_t variant, size_t a, size_t b)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    const size_t words = buffon_priv_shape_cross(shape);
+    const size_t at = buffon_priv_shape_cross_at(shape, variant, a, b);
+    memset(limbs, 0, BUFFON_STATS_SQUARES * sizeof *limbs);
+    for (size_t r = 0; r < shape->replicates; r++) {
+        const size_t cell = stratum * (size_t)shape->replicates + r;
+        const size_t from = cell * words + at;
+        buffon_priv_limbs_merge(limbs, record->whole.cross + from, BUFFON_STATS_SQUARES);
+        buffon_priv_limbs_merge(limbs, record->tail.cross + from, BUFFON_STATS_SQUARES);
+    }
+}
+
+buffon_priv_wide buffon_priv_spread_mean(const buffon_priv_record *record, size_t stratum,
+                                         size_t output)
+{
+    buffon_stats pool;
+    buffon_priv_spread_pool(&pool, record, stratum, 0, (size_t)record->shape.replicates, output);
+    return buffon_priv_stats_mean_wide(&pool);
+}
+
+uint64_t buffon_priv_spread_count(const buffon_priv_record *record, size_t stratum)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    uint64_t count = 0;
+    for (size_t r = 0; r < shape->replicates; r++) {
+        const size_t cell = stratum * (size_t)shape->replicates + r;
+        count += buffon_priv_cell_count(&record->whole, cell, shape) +
+                 buffon_priv_cell_count(&record->tail, cell, shape);
+    }
+    return count;
+}
+
+/* Are the blocks of a cell that are done the first ones, none left out? */
+static int spread_gapless(const buffon_priv_record *record, size_t cell)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    const size_t cells = buffon_priv_shape_cells(shape);
+    const uint64_t blocks = buffon_priv_cell_count(&record->whole, cell, shape) / shape->block;
+    for (uint64_t p = 0; p < shape->parts; p++) {
+        if (record->done[p * cells + cell] != buffon_priv_record_owned(record, p, cell, blocks))
+            return 0;
+    }
+    return buffon_priv_cell_count(&record->tail, cell, shape) == 0 ||
+           blocks == record->target[cell] / shape->block;
+}
+
+/* Has every replicate of the stratum finished its sweeps over the cells of the point set? */
+static int spread_swept(const buffon_priv_record *record, size_t stratum)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    for (size_t r = 0; r < shape->replicates; r++) {
+        const size_t cell = stratum * (size_t)shape->replicates + r;
+        const uint64_t count = buffon_priv_cell_count(&record->whole, cell, shape) +
+                               buffon_priv_cell_count(&record->tail, cell, shape);
+        if (count % shape->round != 0 || !spread_gapless(record, cell))
+            return 0;
+    }
+    return 1;
+}
+
+/* Which series the error comes from: the values, the means of pairs, or their half differences. */
+size_t buffon_priv_spread_variant(const buffon_priv_record *record, size_t stratum)
+{
+    switch (record->shape.design) {
+    case BUFFON_DESIGN_ANTITHETIC:
+        return 1;
+    case BUFFON_DESIGN_STRATIFIED:
+        return spread_swept(record, stratum) ? 2 : 1;
+    default:
+        return 0;
+    }
+}
+
+/* Covariance of the means of independent values, pairs, or stratified pairs.
+ *
+ * Stratified pairs: M cells with half differences d have Var(mean) = sum Var(cell) / (2 M^2), and
+ * d^2 has the mean Var(cell) / 2, so it is estimated by sum d^2 / M^2 = mean(d^2) / M, with M
+ * degrees of freedom. mean(d_a d_b) follows from the covariance: (M - 1)/M cov + mean(d_a)
+ * mean(d_b). */
+buffon_priv_spread buffon_priv_spread_pairs(const buffon_priv_record *record, size_t stratum,
+                                            size_t a, size_t b)
+{
+    const size_t variant = buffon_priv_spread_variant(record, stratum),
+                 first = variant * record->shape.outputs;
+    const size_t end = (size_t)record->shape.replicates;
+    uint64_t limbs[BUFFON_STATS_SQUARES];
+    buffon_stats sa, sb;
+    buffon_priv_wide square;
+    buffon_priv_spread_pool(&sa, record, stratum, 0, end, first + a);
+    if (variant == 2 && a == b)
+        square = buffon_priv_stats_mean_square(&sa);
+    else if (a == b)
+        square = buffon_priv_stats_variance(&sa);
+    else {
+        buffon_priv_spread_pool(&sb, record, stratum, 0, end, first + b);
+        spread_pool_cross(limbs, record, stratum, variant, a < b ? a : b, a < b ? b : a);
+        square = buffon_priv_cross_covariance(limbs, &sa, &sb);
+        if (variant == 2 && sa.count > 1) {
+            square = buffon_priv_wide_mul(square, buffon_priv_wide_count(sa.count - 1));
+            square = buffon_priv_wide_div(square, buffon_priv_wide_count(sa.count));
+            square = buffon_priv_wide_add(square,
+                                          buffon_priv_wide_mul(buffon_priv_stats_mean_wide(&sa),
+                                                               buffon_priv_stats_mean_wide(&sb)));
+        }
+    }
+    return (buffon_priv_spread){.square =
+                                    buffon_priv_wide_div(square, buffon_priv_wide_count(sa.count)),
+                                .dof = (double)(sa.count - (variant != 2 && sa.count > 0))};
+}
+
+/* Covariance of the means over R replicates that have points, with weights w_r = n_r / n:
+ * R / (R - 1) sum w_r^2 (a_r - a)(b_r - b), which for equal n_r is the usual sum / (R (R - 1)). */
+static buffon_priv_spread spread_replicates(const buffon_priv_record *record, size_t stratum,
+                                            size_t a, size_t b)
+{
+    const buffon_priv_wide mean_a = buffon_priv_spread_mean(record, stratum, a);
+    const buffon_priv_wide mean_b = buffon_priv_spread_mean(record, stratum, b);
+    const buffon_priv_wide n = buffon_priv_wide_count(buffon_priv_spread_count(record, stratum));
+    buffon_priv_wide sum = buffon_priv_wide_of(0);
+    uint64_t present = 0;
+    for (size_t r = 0; r < record->shape.replicates; r++) {
+        buffon_stats pool;
+        buffon_priv_wide weight, da, db;
+        buffon_priv_spread_pool(&pool, record, stratum, r, r + 1, a);
+        if (pool.count == 0)
+            continue;
+        present++;
+        weight = buffon_priv_wide_div(buffon_priv_wide_count(pool.count), n);
+        da = buffon_priv_wide_add(buffon_priv_stats_mean_wide(&pool),
+                                  buffon_priv_wide_negate(mean_a));
+        buffon_priv_spread_pool(&pool, record, stratum, r, r + 1, b);
+        db = buffon_priv_wide_add(buffon_priv_stats_mean_wide(&pool),
+                                  buffon_priv_wide_negate(mean_b));
+        sum = buffon_priv_wide_add(sum, buffon_priv_wide_mul(buffon_priv_wide_mul(weight, da),
+                                                             buffon_priv_wide_mul(weight, db)));
+    }
+    if (present < 2)
+        return (buffon_priv_spread){buffon_priv_wide_of(NAN), 0};
+    sum = buffon_priv_wide_mul(sum, buffon_priv_wide_count(present));
+    return (buffon_priv_spread){buffon_priv_wide_div(sum, buffon_priv_wide_count(present - 1)),
+                                (double)(present - 1)};
+}
+
+static buffon_priv_spread spread_stratum(const buffon_priv_record *record, size_t stratum, size_t a,
+                                         size_t b)
+{
+    switch (record->shape.design) {
+    case BUFFON_DESIGN_NONE:
+        return (buffon_priv_spread){buffon_priv_wide_of(NAN), 0};
+    case BUFFON_DESIGN_REPLICATES:
+        return spread_replicates(record, stratum, a, b);
+    default:
+        return buffon_priv_spread_pairs(record, stratum, a, b);
+    }
+}
+
+/* The factor of a stratum's mean in the estimate: scale times weight. */
+buffon_priv_wide buffon_priv_spread_factor(const buffon_priv_record *record, size_t stratum)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    double m;
+    memcpy(&m, &shape->scale_m, sizeof m);
+    return buffon_priv_wide_mul(buffon_priv_wide_make(m, (int)(int64_t)shape->scale_e),
+                                buffon_priv_wide_of(record->weight[stratum]));
+}
+
+/* The mean of an output: the sum over strata of factor times mean. */
+buffon_priv_wide buffon_priv_spread_output(const buffon_priv_record *record, size_t output)
+{
+    buffon_priv_wide sum = buffon_priv_wide_of(0);
+    for (size_t s = 0; s < record->shape.strata; s++)
+        sum = buffon_priv_wide_add(
+            sum, buffon_priv_wide_mul(buffon_priv_spread_factor(record, s),
+                                      buffon_priv_spread_mean(record, s, output)));
+    return sum;
+}
+
+/* Covariance of the means of two outputs, with the degrees of freedom of Welch (1947) and
+ * Satterthwaite (1946): (sum v)^2 / sum (v^2 / dof). */
+static buffon_priv_spread spread_output_covariance(const buffon_priv_record *record, size_t a,
+                                                   size_t b)
+{
+    buffon_priv_wide sum = buffon_priv_wide_of(0), sum2 = buffon_priv_wide_of(0);
+    buffon_priv_spread one = {buffon_priv_wide_of(0), 0};
+    for (size_t s = 0; s < record->shape.strata; s++) {
+        const buffon_priv_wide factor = buffon_priv_spread_factor(record, s);
+        one = spread_stratum(record, s, a, b);
+        one.square = buffon_priv_wide_mul(one.square, buffon_priv_wide_mul(factor, factor));
+        sum = buffon_priv_wide_add(sum, one.square);
+        sum2 = buffon_priv_wide_add(
+            sum2, buffon_priv_wide_div(buffon_priv_wide_mul(one.square, one.square),
+                                       buffon_priv_wide_of(one.dof)));
+    }
+    if (record->shape.strata > 1 && sum2.m > 0)
+        one.dof =
+            buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(sum, sum), sum2));
+    return (buffon_priv_spread){sum, one.dof};
+}
+
+buffon_priv_wide buffon_priv_spread_value(const buffon_priv_record *record, size_t k)
+{
+    const buffon_priv_wide mean = buffon_priv_spread_output(record, k);
+    if (record->shape.kind != BUFFON_PRIV_RATIO)
+        return mean;
+    return buffon_priv_wide_div(
+        mean, buffon_priv_spread_output(record, (size_t)record->shape.components));
+}
+
+/* Covariance of two component estimates. Of ratios R_k = A_k / W to first order: that of
+ * (A_k - R_k W) / W. */
+buffon_priv_spread buffon_priv_spread_of(const buffon_priv_record *record, size_t k, size_t l)
+{
+    buffon_priv_spread v = spread_output_covariance(record, k, l);
+    if (record->shape.kind == BUFFON_PRIV_RATIO) {
+        const size_t w = (size_t)record->shape.components;
+        const buffon_priv_wide rk = buffon_priv_spread_value(record, k),
+                               rl = buffon_priv_spread_value(record, l);
+        const buffon_priv_wide weight = buffon_priv_spread_output(record, w);
+        const buffon_priv_wide ww = spread_output_covariance(record, w, w).square;
+        const buffon_priv_wide kw = spread_output_covariance(record, k, w).square;
+        const buffon_priv_wide lw = spread_output_covariance(record, l, w).square;
+        buffon_priv_wide sum = buffon_priv_wide_mul(buffon_priv_wide_mul(rk, rl), ww);
+        sum = buffon_priv_wide_add(sum, buffon_priv_wide_negate(buffon_priv_wide_mul(rk, lw)));
+        sum = buffon_priv_wide_add(sum, buffon_priv_wide_negate(buffon_priv_wide_mul(rl, kw)));
+        v.square = buffon_priv_wide_add(v.square, sum);
+        v.square = buffon_priv_wide_div(v.square, buffon_priv_wide_mul(weight, weight));
+    }
+    if (k == l && v.square.m < 0)
+        v.square = buffon_priv_wide_of(0); /* rounding; a variance is not negative */
+    return v;
+}
