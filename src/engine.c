@@ -14,7 +14,7 @@
 
 #define ENGINE_ROUND 1024           /* blocks handed to the workers at a time, at most */
 #define ENGINE_PROGRESS_SECONDS 0.1 /* between calls of the progress callback */
-#define ENGINE_LINDEBERG 0.01       /* the largest share of one sample where a tolerance is met */
+#define ENGINE_LINDEBERG 0.02       /* the largest share of one sample where a tolerance is met */
 
 /* A run under way. */
 typedef struct engine {
@@ -290,7 +290,7 @@ static buffon_status engine_advance(engine *e)
 }
 
 /* Is the tolerance met, by estimates that deserve belief? The interval rests on the central limit
- * theorem, so no single sample may carry more than a hundredth of the variance (Lindeberg's
+ * theorem, so no single sample may carry more than a fiftieth of the variance (Lindeberg's
  * condition, as far as a sample shows it); and zero spread meets no tolerance. */
 static int engine_reached(const engine *e)
 {

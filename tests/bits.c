@@ -1,6 +1,6 @@
 /* Results in hex, for comparing builds: every line must be the same from every compiler, level of
- * optimisation, instruction set and machine (tests/bits.sh). The integrands use + - * / and sqrt alone.
- */
+ * optimisation, instruction set and machine (tests/bits.sh). The integrands use + - * / and sqrt
+ * alone. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -87,8 +87,11 @@ static void show_problem(const problem *p)
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
         buffon_partial partial = {0};
         buffon_estimate e[PROBLEMS_COMPONENTS];
-        buffon_run run = {.samples = runs[i].samples, .seed = 20240607 + i, .block = runs[i].block,
-                          .rel_tol = runs[i].tolerant ? p->rel_tol : 0, .threads = 2,
+        buffon_run run = {.samples = runs[i].samples,
+                          .seed = 20240607 + i,
+                          .block = runs[i].block,
+                          .rel_tol = runs[i].tolerant ? p->rel_tol : 0,
+                          .threads = 2,
                           .partial = &partial};
         const buffon_status status = p->solve(e, run);
         printf("%s: %d\n", p->name, (int)status);
@@ -198,8 +201,10 @@ static void show_points(void)
                 {"jitter(10000)", buffon_points_jitter(10000)}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         for (size_t dim = 1; dim <= 3; dim++) {
-            const buffon_points_block block = {.key = {.seed = 3, .stratum = 2}, .n = POINTS,
-                                               .first = (UINT64_C(1) << 33) + 5, .dim = dim};
+            const buffon_points_block block = {.key = {.seed = 3, .stratum = 2},
+                                               .n = POINTS,
+                                               .first = (UINT64_C(1) << 33) + 5,
+                                               .dim = dim};
             const int failed = list[i].points.fill(u, &block, &list[i].points);
             printf("%s: %d %016llx\n", list[i].name, failed,
                    (unsigned long long)hash_numbers(u, dim * POINTS));

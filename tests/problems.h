@@ -1,6 +1,6 @@
 /* Problems of every kind, for what must hold of all: any threads, parts and interruptions give the
- * same bits. Their integrands use + - * / and sqrt alone, so their bits are the same on every machine.
- */
+ * same bits. Their integrands use + - * / and sqrt alone, so their bits are the same on every
+ * machine. */
 #ifndef TESTS_PROBLEMS_H
 #define TESTS_PROBLEMS_H
 
@@ -63,7 +63,7 @@ static double problem_weight(const double *x, void *ctx)
     return 7 / (1 + x[0] * x[0] + x[1]);
 }
 
-/* ---- a point set of a user: the Kronecker sequence, shifted at random in each of 8 replicates ---- */
+/* ---- a point set of a user: the Kronecker sequence, shifted at random in each replicate ---- */
 
 static size_t problem_kronecker_size(size_t dim, const buffon_points *self)
 {
@@ -175,8 +175,8 @@ static buffon_status problem_strata(buffon_estimate *out, buffon_run run, int al
     const buffon_stratum list[] = {{.density = &box[0]},
                                    {.density = &box[1], .share = 0.5, .weight = -2},
                                    {.density = &box[2], .f = &weight, .share = 2}};
-    const buffon_strata strata = {.stratum = list, .count = 3, .allocation = allocation,
-                                  .pilot = 100};
+    const buffon_strata strata = {
+        .stratum = list, .count = 3, .allocation = allocation, .pilot = 100};
     return buffon_stratified(out, &f, &strata, &run);
 }
 
@@ -256,10 +256,10 @@ static inline int same_double(double a, double b)
 /* Are two estimates the same to the last bit, in every field? */
 static inline int same_estimate(const buffon_estimate *a, const buffon_estimate *b)
 {
-    const double x[] = {a->value, a->std_error, a->variance, a->lo, a->hi, a->confidence, a->min,
-                        a->max, a->max_share, a->tail_index, a->ess, a->acceptance};
-    const double y[] = {b->value, b->std_error, b->variance, b->lo, b->hi, b->confidence, b->min,
-                        b->max, b->max_share, b->tail_index, b->ess, b->acceptance};
+    const double x[] = {a->value, a->std_error, a->variance,  a->lo,         a->hi,  a->confidence,
+                        a->min,   a->max,       a->max_share, a->tail_index, a->ess, a->acceptance};
+    const double y[] = {b->value, b->std_error, b->variance,  b->lo,         b->hi,  b->confidence,
+                        b->min,   b->max,       b->max_share, b->tail_index, b->ess, b->acceptance};
     int same = a->samples == b->samples && a->nonfinite == b->nonfinite &&
                a->bad_index == b->bad_index && a->bad_stratum == b->bad_stratum &&
                a->status == b->status && a->doubts == b->doubts && a->interval == b->interval &&

@@ -73,31 +73,18 @@ static int test_long_double(void)
 
 /* ---- references --------------------------------------------------------------------------- */
 
-static long double test_sinpil(double x)
+/* sin(pi (x + quarter / 2)). */
+static long double test_turnl(double x, int quarter)
 {
-    long double r = fmodl((long double)x, 2);
+    const long double r = fmodl((long double)x, 2);
     const int turns = (int)lrintl(2 * r);
-    r -= turns * 0.5L;
-    switch (turns & 3) {
-    case 0: return sinl(PI_L * r);
-    case 1: return cosl(PI_L * r);
-    case 2: return -sinl(PI_L * r);
-    default: return -cosl(PI_L * r);
-    }
+    const long double angle = PI_L * (r - turns * 0.5L);
+    const long double size = (turns + quarter) & 1 ? cosl(angle) : sinl(angle);
+    return (turns + quarter) & 2 ? -size : size;
 }
 
-static long double test_cospil(double x)
-{
-    long double r = fmodl((long double)x, 2);
-    const int turns = (int)lrintl(2 * r);
-    r -= turns * 0.5L;
-    switch (turns & 3) {
-    case 0: return cosl(PI_L * r);
-    case 1: return -sinl(PI_L * r);
-    case 2: return -cosl(PI_L * r);
-    default: return sinl(PI_L * r);
-    }
-}
+static long double test_sinpil(double x) { return test_turnl(x, 0); }
+static long double test_cospil(double x) { return test_turnl(x, 1); }
 
 /* One step of Newton's from the value in question. */
 static long double test_normall(double u)

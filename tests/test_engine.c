@@ -1,5 +1,5 @@
-/* The bits of a result depend on what is computed, not on who computes it: threads, executors, parts
- * in any order, and steps give the same estimates, covariances and saved bytes. */
+/* The bits of a result depend on what is computed, not on who computes it: threads, executors,
+ * parts in any order, and steps give the same estimates, covariances and saved bytes. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <pthread.h>
@@ -163,9 +163,12 @@ static void test_executors(const problem *p, const result *expected, buffon_run 
 static size_t order_at(int order, size_t i, size_t n)
 {
     switch (order) {
-    case 0: return i;
-    case 1: return n - 1 - i;
-    default: return (i * 7 + 3) % n; /* n is not a multiple of 7 */
+    case 0:
+        return i;
+    case 1:
+        return n - 1 - i;
+    default:
+        return (i * 7 + 3) % n; /* n is not a multiple of 7 */
     }
 }
 
@@ -188,8 +191,8 @@ static int merge_parts(buffon_partial *part, size_t n, int order)
     return good;
 }
 
-/* Does a run in parts say, after merging, what the single run says? The saved bytes differ in that the
- * record is one of parts, until the whole run is asked for again. */
+/* Does a run in parts say, after merging, what the single run says? The saved bytes differ in
+ * that the record is one of parts, until the whole run is asked for again. */
 static int parts_alike(const problem *p, const result *expected, buffon_run run, uint32_t parts,
                        int order)
 {
@@ -235,7 +238,8 @@ static void test_parts(const problem *p, const result *expected, buffon_run run)
     }
 }
 
-/* A whole run takes what parts there are and does the rest, whatever the samples of the second call. */
+/* A whole run takes what parts there are and does the rest, whatever the samples of the second
+ * call. */
 static void test_parts_then_rest(const problem *p, const result *expected, buffon_run run)
 {
     int good = 1;

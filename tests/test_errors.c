@@ -8,8 +8,14 @@
 /* Requests that no memory can hold are refused, not reported as errors of this program. */
 const char *__asan_default_options(void);
 const char *__tsan_default_options(void);
-const char *__asan_default_options(void) { return "allocator_may_return_null=1"; }
-const char *__tsan_default_options(void) { return "allocator_may_return_null=1"; }
+const char *__asan_default_options(void)
+{
+    return "allocator_may_return_null=1";
+}
+const char *__tsan_default_options(void)
+{
+    return "allocator_may_return_null=1";
+}
 
 static int calls; /* of the integrands */
 
@@ -60,8 +66,9 @@ static void after(buffon_status got, buffon_status expected, size_t components, 
 /* ---- every estimator ---- */
 
 static const double lo[9] = {0}, hi[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-static const char *const estimators[] = {"uniform", "rejection", "importance", "expectation",
-                                         "self-normalised", "inverse CDF", "stratified", "Neyman"};
+static const char *const estimators[] = {"uniform",     "rejection",       "importance",
+                                         "expectation", "self-normalised", "inverse CDF",
+                                         "stratified",  "Neyman"};
 
 enum { ESTIMATORS = sizeof estimators / sizeof estimators[0] };
 
@@ -86,13 +93,20 @@ static buffon_status estimate(int estimator, const buffon_integrand *f, const bu
     const buffon_stratum list[] = {{.density = &box}, {.density = &box}};
     const buffon_strata strata = {.stratum = list, .count = 2, .allocation = estimator == 7};
     switch (estimator) {
-    case 0: return buffon_uniform(e, f, lo, hi, run);
-    case 1: return buffon_rejection(e, f, lo, hi, 1, run);
-    case 2: return buffon_importance(e, f, &box, run);
-    case 3: return buffon_expectation(e, f, &box, run);
-    case 4: return buffon_self_normalised(e, f, &p, &box, run);
-    case 5: return buffon_inverse_cdf(e, f, &how, run);
-    default: return buffon_stratified(e, f, &strata, run);
+    case 0:
+        return buffon_uniform(e, f, lo, hi, run);
+    case 1:
+        return buffon_rejection(e, f, lo, hi, 1, run);
+    case 2:
+        return buffon_importance(e, f, &box, run);
+    case 3:
+        return buffon_expectation(e, f, &box, run);
+    case 4:
+        return buffon_self_normalised(e, f, &p, &box, run);
+    case 5:
+        return buffon_inverse_cdf(e, f, &how, run);
+    default:
+        return buffon_stratified(e, f, &strata, run);
     }
 }
 
@@ -100,7 +114,8 @@ static buffon_status estimate(int estimator, const buffon_integrand *f, const bu
 static void bad_run(buffon_status expected, const buffon_run *run, const char *what)
 {
     const buffon_integrand f = {.scalar = scalar, .dim = 1};
-    /* The shares of Neyman's allocation, and so whether the points suffice, follow from the pilot. */
+    /* The shares of Neyman's allocation, and so whether the points suffice, follow from the
+     * pilot. */
     const int late = run->points != NULL && expected == BUFFON_E_SAMPLES;
     for (int i = 0; i < ESTIMATORS - late; i++) {
         char name[128];
@@ -111,7 +126,8 @@ static void bad_run(buffon_status expected, const buffon_run *run, const char *w
     const buffon_density box = buffon_box(lo, hi, 1);
     const buffon_status got = buffon_sample_at(&x, &box, 5, run);
     if (expected != BUFFON_E_SAMPLES && expected != BUFFON_E_MISMATCH)
-        tap_ok(got == expected && isnan(x), "%s: sample_at: %s", buffon_status_name(expected), what);
+        tap_ok(got == expected && isnan(x), "%s: sample_at: %s", buffon_status_name(expected),
+               what);
 }
 
 static void test_numbers(void)
@@ -133,7 +149,8 @@ static void test_numbers(void)
         snprintf(what, sizeof what, "block %lu", (unsigned long)blocks[i]);
         bad_run(BUFFON_E_BLOCK, &(buffon_run){.block = blocks[i]}, what);
     }
-    bad_run(BUFFON_E_SAMPLES, &(buffon_run){.samples = (UINT64_C(1) << 62) + 1}, "2^62 + 1 samples");
+    bad_run(BUFFON_E_SAMPLES, &(buffon_run){.samples = (UINT64_C(1) << 62) + 1},
+            "2^62 + 1 samples");
     bad_run(BUFFON_E_SAMPLES, &(buffon_run){.samples = UINT64_MAX}, "2^64 - 1 samples");
 }
 
@@ -236,7 +253,8 @@ static void test_integrands(void)
 
 static void test_domains(void)
 {
-    static const double bad[][2] = {{1, 1}, {2, 1}, {NAN, 1}, {0, NAN}, {-INFINITY, 1}, {0, INFINITY}};
+    static const double bad[][2] = {{1, 1},   {2, 1},         {NAN, 1},
+                                    {0, NAN}, {-INFINITY, 1}, {0, INFINITY}};
     for (size_t dim = 1; dim <= 9; dim += 4) {
         const buffon_integrand f = {.scalar = scalar, .dim = dim};
         REFUSES(BUFFON_E_NULL, buffon_uniform(e, &f, NULL, hi, NULL), "lo is NULL");
@@ -408,12 +426,14 @@ static void test_strata(void)
     list[1].share = -1;
     REFUSES(BUFFON_E_STRATA, buffon_stratified(e, &f, &strata, NULL), "a share of -1");
     list[0].share = list[1].share = 1e308;
-    REFUSES(BUFFON_E_STRATA, buffon_stratified(e, &f, &strata, NULL), "shares whose sum is infinite");
+    REFUSES(BUFFON_E_STRATA, buffon_stratified(e, &f, &strata, NULL),
+            "shares whose sum is infinite");
     list[0].share = list[1].share = 0;
     list[1].density = NULL;
     REFUSES(BUFFON_E_NULL, buffon_stratified(e, &f, &strata, NULL), "a stratum without a density");
     list[1].density = &plane;
-    REFUSES(BUFFON_E_DIM, buffon_stratified(e, &f, &strata, NULL), "strata of different dimensions");
+    REFUSES(BUFFON_E_DIM, buffon_stratified(e, &f, &strata, NULL),
+            "strata of different dimensions");
     list[1].f = &g;
     REFUSES(BUFFON_E_DIM, buffon_stratified(e, &f, &strata, NULL), "each with its own integrand");
     list[1] = (buffon_stratum){.density = &box, .f = &three};
@@ -425,7 +445,8 @@ static void test_strata(void)
     tap_ok(buffon_stratum_sample_at(&x, &strata, 2, 0, NULL) == BUFFON_E_STRATA && isnan(x),
            "sample_at: stratum 2 of 2");
     tap_ok(buffon_stratum_sample_at(&x, NULL, 0, 0, NULL) == BUFFON_E_NULL &&
-           buffon_stratum_sample_at(NULL, &strata, 0, 0, NULL) == BUFFON_E_NULL, "sample_at: NULL");
+               buffon_stratum_sample_at(NULL, &strata, 0, 0, NULL) == BUFFON_E_NULL,
+           "sample_at: NULL");
 }
 
 /* ---- the rest ---- */
@@ -439,16 +460,16 @@ static void test_outputs(void)
     const buffon_strata strata = {.stratum = list, .count = 1};
     calls = 0;
     tap_ok(buffon_uniform(NULL, &f, lo, hi, NULL) == BUFFON_E_NULL &&
-           buffon_rejection(NULL, &f, lo, hi, 1, NULL) == BUFFON_E_NULL &&
-           buffon_rejection(NULL, &f, lo, hi, -1, NULL) == BUFFON_E_NULL &&
-           buffon_importance(NULL, &f, &box, NULL) == BUFFON_E_NULL &&
-           buffon_expectation(NULL, &f, &box, NULL) == BUFFON_E_NULL &&
-           buffon_self_normalised(NULL, &f, &f, &box, NULL) == BUFFON_E_NULL &&
-           buffon_self_normalised(NULL, &f, NULL, &box, NULL) == BUFFON_E_NULL &&
-           buffon_inverse_cdf(NULL, &f, &how, NULL) == BUFFON_E_NULL &&
-           buffon_inverse_cdf(NULL, &f, NULL, NULL) == BUFFON_E_NULL &&
-           buffon_stratified(NULL, &f, &strata, NULL) == BUFFON_E_NULL &&
-           buffon_stratified(NULL, NULL, NULL, NULL) == BUFFON_E_NULL && calls == 0,
+               buffon_rejection(NULL, &f, lo, hi, 1, NULL) == BUFFON_E_NULL &&
+               buffon_rejection(NULL, &f, lo, hi, -1, NULL) == BUFFON_E_NULL &&
+               buffon_importance(NULL, &f, &box, NULL) == BUFFON_E_NULL &&
+               buffon_expectation(NULL, &f, &box, NULL) == BUFFON_E_NULL &&
+               buffon_self_normalised(NULL, &f, &f, &box, NULL) == BUFFON_E_NULL &&
+               buffon_self_normalised(NULL, &f, NULL, &box, NULL) == BUFFON_E_NULL &&
+               buffon_inverse_cdf(NULL, &f, &how, NULL) == BUFFON_E_NULL &&
+               buffon_inverse_cdf(NULL, &f, NULL, NULL) == BUFFON_E_NULL &&
+               buffon_stratified(NULL, &f, &strata, NULL) == BUFFON_E_NULL &&
+               buffon_stratified(NULL, NULL, NULL, NULL) == BUFFON_E_NULL && calls == 0,
            "no place for the result");
     const buffon_integrand three = {.batch = batch, .dim = 1, .components = 3};
     REFUSES(BUFFON_E_NULL, buffon_self_normalised(e, &f, NULL, &box, NULL), "no second integrand");
@@ -492,7 +513,7 @@ static void test_partial(void)
     run.parts = 2;
     REFUSES(BUFFON_E_MISMATCH, buffon_uniform(e, &f, lo, hi, &run), "a whole run's for a part");
     tap_ok(buffon_partial_size(&partial) == size &&
-           buffon_partial_save(is, size, &partial) == BUFFON_OK && memcmp(was, is, size) == 0,
+               buffon_partial_save(is, size, &partial) == BUFFON_OK && memcmp(was, is, size) == 0,
            "which is as it was");
     buffon_partial_free(&partial);
 }
@@ -512,8 +533,8 @@ static void bad_sampler(buffon_status expected, double *x, size_t n, const buffo
         x[0] = 5;
     const buffon_status got = buffon_rejection_sample(x, n, &report, f, g, envelope, &rng, 0);
     tap_ok(got == expected && calls == 0 && memcmp(&rng, &was, sizeof rng) == 0 &&
-           report.tries == 0 && report.accepted == 0 && isnan(report.acceptance) &&
-           report.worst == 0 && (x == NULL || x[0] == 5 || isnan(x[0])),
+               report.tries == 0 && report.accepted == 0 && isnan(report.acceptance) &&
+               report.worst == 0 && (x == NULL || x[0] == 5 || isnan(x[0])),
            "%s: sampler: %s", buffon_status_name(expected), what);
 }
 
@@ -542,7 +563,8 @@ static void test_sampler(void)
            "BUFFON_E_NULL: sampler: no generator");
     buffon_rng rng = buffon_rng_make(1, 2);
     tap_ok(buffon_rejection_sample(NULL, 0, NULL, &f, &box, 1, &rng, 0) == BUFFON_OK &&
-           buffon_rng_tell(&rng) == 0, "sampler: n = 0 draws nothing");
+               buffon_rng_tell(&rng) == 0,
+           "sampler: n = 0 draws nothing");
 }
 
 int main(void)

@@ -1,5 +1,5 @@
-/* Each estimator against exact values: the value within 6.1 exact standard errors (1e-9), the variance
- * within as many of its own, whose law follows from the exact fourth moment. */
+/* Each estimator against exact values: the value within 6.1 exact standard errors (1e-9), the
+ * variance within as many of its own, whose law follows from the exact fourth moment. */
 #include <stdlib.h>
 
 #include "law.h"
@@ -12,15 +12,17 @@ static const double zero = 0, one = 1, unit_lo[10] = {0},
                     unit_hi[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /* An estimate from the raw moments m[1] to m[4] of its primary estimates. */
-static void judge(const char *name, buffon_status status, const buffon_estimate *e, const double m[5])
+static void judge(const char *name, buffon_status status, const buffon_estimate *e,
+                  const double m[5])
 {
     const double n = (double)e->samples, mean = m[1], var = m[2] - mean * mean;
-    const double fourth = m[4] - 4 * mean * m[3] + 6 * mean * mean * m[2] - 3 * mean * mean * mean * mean;
+    const double fourth =
+        m[4] - 4 * mean * m[3] + 6 * mean * mean * m[2] - 3 * mean * mean * mean * mean;
     const double z = (e->value - mean) / sqrt(var / n);
     const double r = (e->variance / var - 1) / sqrt((fourth / (var * var) - 1) / n);
     tap_ok(status == BUFFON_OK && e->doubts == 0 && fabs(z) < LIMIT && fabs(r) < LIMIT &&
-           fabs(e->std_error / sqrt(e->variance / n) - 1) < 1e-13 && e->lo < e->value &&
-           e->value < e->hi,
+               fabs(e->std_error / sqrt(e->variance / n) - 1) < 1e-13 && e->lo < e->value &&
+               e->value < e->hi,
            "%s: %.6g +- %.2g, exactly %.6g: z = %.2f; of the variance %.2f", name, e->value,
            e->std_error, mean, z, r);
 }
@@ -177,7 +179,8 @@ static void test_expectation(void)
     tap_ok(buffon_importance(&e, &h, &g, NULL) == BUFFON_E_UNSUPPORTED, "which has no pdf here");
 }
 
-/* p = 7 x on (0, 1), g uniform with a wrong factor: E[x] = 2/3, n Var = E[w^2 (x - 2/3)^2] / E[w]^2. */
+/* p = 7 x on (0, 1), g uniform with a wrong factor: E[x] = 2/3, n Var = E[w^2 (x - 2/3)^2] /
+ * E[w]^2. */
 static double seven(const double *x, void *ctx)
 {
     (void)ctx;
@@ -195,7 +198,8 @@ static void test_self_normalised(void)
     const double z = (e.value - exact) / sqrt(var / SAMPLES);
     tap_ok(status == BUFFON_OK && fabs(z) < LIMIT && fabs(e.variance / var - 1) < 0.02,
            "self-normalised: z = %.2f, variance off by %.2g", z, e.variance / var - 1);
-    tap_ok(fabs(e.ess / SAMPLES - 0.75) < 0.005 && fabs(e.max_share * SAMPLES * (1.0 / 3) - 1) < 0.02,
+    tap_ok(fabs(e.ess / SAMPLES - 0.75) < 0.005 &&
+               fabs(e.max_share * SAMPLES * (1.0 / 3) - 1) < 0.02,
            "self-normalised: effective sample size %.0f", e.ess);
 }
 
@@ -278,14 +282,15 @@ static void test_stratified(void)
     buffon_status status = buffon_stratified(&e, &f, &strata, &run);
     double z = (e.value - 1.0 / 3) / sqrt(proportional / SAMPLES);
     tap_ok(status == BUFFON_OK && fabs(z) < LIMIT && fabs(e.variance / proportional - 1) < 0.02 &&
-           e.variance < plain, "strata, proportional: z = %.2f, variance off by %.2g", z,
+               e.variance < plain,
+           "strata, proportional: z = %.2f, variance off by %.2g", z,
            e.variance / proportional - 1);
     strata.allocation = BUFFON_ALLOCATION_NEYMAN;
     status = buffon_stratified(&e, &f, &strata, &run);
     z = (e.value - 1.0 / 3) / sqrt(neyman / SAMPLES);
     tap_ok(status == BUFFON_OK && fabs(z) < LIMIT && fabs(e.variance / neyman - 1) < 0.05 &&
-           neyman < proportional, "strata, Neyman: z = %.2f, variance off by %.2g", z,
-           e.variance / neyman - 1);
+               neyman < proportional,
+           "strata, Neyman: z = %.2f, variance off by %.2g", z, e.variance / neyman - 1);
 }
 
 /* A constant stratum beside a lively one: Neyman leaves it a tenth of its share, not nothing; and
@@ -306,8 +311,8 @@ static void test_neyman_floor(void)
 {
     buffon_density box[2] = {buffon_segment(0, 0.5), buffon_segment(0.5, 1)};
     const buffon_stratum list[] = {{.density = &box[0]}, {.density = &box[1]}};
-    const buffon_strata strata = {.stratum = list, .count = 2,
-                                  .allocation = BUFFON_ALLOCATION_NEYMAN};
+    const buffon_strata strata = {
+        .stratum = list, .count = 2, .allocation = BUFFON_ALLOCATION_NEYMAN};
     const buffon_integrand f = {.scalar = half_flat, .dim = 1};
     uint64_t done = 0;
     const buffon_run run = {.samples = 10000, .progress = seen_in_order, .progress_ctx = &done};
@@ -315,7 +320,7 @@ static void test_neyman_floor(void)
     const double x = 7.0 / 24 / 0.5; /* mean of x^2 on the second half */
     const double var = 0.25 * (31.0 / 160 / 0.5 - x * x);
     tap_ok(buffon_stratified(&e, &f, &strata, &run) == BUFFON_OK && e.samples == done &&
-           fabs(e.std_error * e.std_error * 9500 / var - 1) < 0.1,
+               fabs(e.std_error * e.std_error * 9500 / var - 1) < 0.1,
            "strata, Neyman: a stratum without spread keeps a tenth of its share");
 }
 
@@ -326,15 +331,16 @@ typedef struct scale {
     size_t dim;
 } scale;
 
-/* The mean of the coordinates' places in (0, 1), times the factor: its integral is half of that times
- * the volume. */
+/* The mean of the coordinates' places in (0, 1), times the factor: its integral is half of that
+ * times the volume. */
 static double tiny_or_huge(const double *x, void *ctx)
 {
     const scale *s = ctx;
     return s->factor * x[0];
 }
 
-static void check_scale(const char *name, double lo, double hi, size_t dim, double factor, double exact)
+static void check_scale(const char *name, double lo, double hi, size_t dim, double factor,
+                        double exact)
 {
     static double a[300], b[300];
     scale s = {factor, dim};
@@ -347,7 +353,8 @@ static void check_scale(const char *name, double lo, double hi, size_t dim, doub
     const buffon_status status = buffon_uniform(&e, &f, a, b, &(buffon_run){.samples = 40000});
     const double z = (e.value - exact) / e.std_error;
     tap_ok(status == BUFFON_OK && e.std_error > 0 && e.std_error < INFINITY && fabs(z) < LIMIT &&
-           e.lo < exact && exact < e.hi, "%s: %g +- %g", name, e.value, e.std_error);
+               e.lo < exact && exact < e.hi,
+           "%s: %g +- %g", name, e.value, e.std_error);
 }
 
 /* From -1e-5 to 1.5e-5 over a box whose width is no double. */
@@ -364,7 +371,7 @@ static void test_wide(void)
     buffon_estimate e;
     const buffon_status status = buffon_uniform(&e, &f, &lo, &hi, &(buffon_run){.samples = 40000});
     tap_ok(status == BUFFON_OK && fabs(e.value - exact) < LIMIT * e.std_error &&
-           fabs(e.std_error / (2.5e303 / sqrt(12 * 40000.0) * 2.5) - 1) < 0.03,
+               fabs(e.std_error / (2.5e303 / sqrt(12 * 40000.0) * 2.5) - 1) < 0.03,
            "a box as wide as the doubles: %g +- %g", e.value, e.std_error);
 }
 
@@ -393,7 +400,7 @@ static void test_log_pdf(void)
     buffon_estimate e;
     const buffon_status status = buffon_importance(&e, &f, &g, &(buffon_run){.samples = 5000});
     tap_ok(status == BUFFON_OK && fabs(e.value - 5e201) < LIMIT * e.std_error &&
-           fabs(e.std_error / (1e202 / sqrt(12 * 5000.0)) - 1) < 0.1 && e.variance == INFINITY,
+               fabs(e.std_error / (1e202 / sqrt(12 * 5000.0)) - 1) < 0.1 && e.variance == INFINITY,
            "a pdf of 1e-400 by its logarithm: %g +- %g", e.value, e.std_error);
     for (int j = 0; j < D; j++)
         part[j] = buffon_segment(0, 0.01); /* pdf 1e400 */

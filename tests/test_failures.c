@@ -142,8 +142,8 @@ static void test_uniform(void)
     test_nonfinite("random points, the first", NULL, first, 0);
     test_nonfinite("antithetic pairs", &pairs, index, 2777);
     test_nonfinite("jittered points", &jitter, index, 2777);
-    /* A block holds points of one replicate: index 12345 is point 1543 of replicate 1, 2777 is point
-     * 347 of replicate 1, in an earlier block. */
+    /* A block holds points of one replicate: index 12345 is point 1543 of replicate 1, 2777 is
+     * point 347 of replicate 1, in an earlier block. */
     test_nonfinite("replicates", &kronecker, index, 2777);
     trap t = {.dim = 1, .count = 1};
     const double lo = 0, hi = 1;
@@ -156,7 +156,8 @@ static void test_uniform(void)
            "the last point of all");
     run.samples = 19999;
     tap_ok(buffon_uniform(&e, &f, &lo, &hi, &run) == BUFFON_OK && e.bad_index == UINT64_MAX &&
-           e.nonfinite == 0, "one point fewer, and there is no failure");
+               e.nonfinite == 0,
+           "one point fewer, and there is no failure");
 }
 
 static void test_stopped(void)
@@ -205,10 +206,11 @@ static void test_bound(void)
     tap_ok(buffon_rejection(&e, &f, lo, hi, 1.5, &run) == BUFFON_OK, "f = h is within the bound");
     trap_set(&t, &box, index, 0.0, &run);
     tap_ok(buffon_rejection(&e, &f, lo, hi, 1.5, &run) == BUFFON_OK, "so is f = 0");
-    t.value[0] = 9;  /* index 19999 */
-    t.value[1] = 1;  /* index 2777: none */
+    t.value[0] = 9;   /* index 19999 */
+    t.value[1] = 1;   /* index 2777: none */
     t.value[2] = NAN; /* index 12345 */
-    tap_ok(buffon_rejection(&e, &f, lo, hi, 1.5, &run) == BUFFON_E_NONFINITE && e.bad_index == 12345,
+    tap_ok(buffon_rejection(&e, &f, lo, hi, 1.5, &run) == BUFFON_E_NONFINITE &&
+               e.bad_index == 12345,
            "of different failures the lowest counts");
 }
 
@@ -326,12 +328,15 @@ static void test_negative_weight(void)
     buffon_estimate e;
     trap_set(&t, &box, index, 0, &run);
     tap_ok(buffon_self_normalised(&e, &h, &p, &box, &run) == BUFFON_E_BOUND &&
-           is_failure(&e, 1, BUFFON_E_BOUND, 2777, 0), "a negative weight");
+               is_failure(&e, 1, BUFFON_E_BOUND, 2777, 0),
+           "a negative weight");
     keep.partial = &partial;
     tap_ok(buffon_self_normalised(&e, &h, &none, &box, &keep) == BUFFON_E_EMPTY &&
-           is_failure(&e, 1, BUFFON_E_EMPTY, UINT64_MAX, 0), "no weight at all");
+               is_failure(&e, 1, BUFFON_E_EMPTY, UINT64_MAX, 0),
+           "no weight at all");
     tap_ok(buffon_partial_estimate(&e, &partial, 0) == BUFFON_E_EMPTY &&
-           is_failure(&e, 1, BUFFON_E_EMPTY, UINT64_MAX, 0), "its partial says the same");
+               is_failure(&e, 1, BUFFON_E_EMPTY, UINT64_MAX, 0),
+           "its partial says the same");
     buffon_partial_free(&partial);
 }
 
@@ -342,7 +347,8 @@ static void test_strata(void)
     const double lo[3] = {0, 1, 2}, hi[3] = {1, 2, 4};
     const buffon_density box[3] = {buffon_box(&lo[0], &hi[0], 1), buffon_box(&lo[1], &hi[1], 1),
                                    buffon_box(&lo[2], &hi[2], 1)};
-    const buffon_stratum list[] = {{.density = &box[0]}, {.density = &box[1]}, {.density = &box[2]}};
+    const buffon_stratum list[] = {
+        {.density = &box[0]}, {.density = &box[1]}, {.density = &box[2]}};
     buffon_strata strata = {.stratum = list, .count = 3};
     trap t = {.dim = 1, .count = 2, .value = {NAN, NAN}};
     const buffon_integrand f = {.scalar = trap_scalar, .dim = 1, .ctx = &t};
@@ -359,7 +365,8 @@ static void test_strata(void)
     tap_ok(good, "a point of a stratum, which is named");
     strata.allocation = BUFFON_ALLOCATION_NEYMAN;
     tap_ok(buffon_stratified(&e, &f, &strata, &run) == BUFFON_E_NONFINITE && e.bad_index == 5000 &&
-           e.bad_stratum == 2, "the same with a pilot, whose points are others");
+               e.bad_stratum == 2,
+           "the same with a pilot, whose points are others");
 }
 
 /* ---- what is left ---- */
@@ -379,7 +386,8 @@ static void test_resume(void)
     tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_NONFINITE && e.bad_index == 30000,
            "a failure in the second round of blocks");
     tap_ok(buffon_partial_estimate(&kept, &partial, 0) == BUFFON_W_INCOMPLETE &&
-           kept.samples == 16 * 1024, "what was done before is kept");
+               kept.samples == 16 * 1024,
+           "what was done before is kept");
     t.count = 0;
     buffon_status status = buffon_uniform(&e, &f, lo, hi, &run);
     run.partial = NULL;

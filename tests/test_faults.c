@@ -21,13 +21,13 @@ static atomic_long threads_started, thread_fails_at;
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t n, size_t size);
 void __real_free(void *p);
-int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
-                          void *(*run)(void *), void *arg);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                          void *arg);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t n, size_t size);
 void __wrap_free(void *p);
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
-                          void *(*run)(void *), void *arg);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                          void *arg);
 
 static int fails(void)
 {
@@ -57,8 +57,8 @@ void __wrap_free(void *p)
     __real_free(p);
 }
 
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
-                          void *(*run)(void *), void *arg)
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                          void *arg)
 {
     const long n = atomic_fetch_add(&threads_started, 1) + 1;
     if (thread_fails_at > 0 && n >= thread_fails_at)
@@ -120,7 +120,8 @@ static int recovers(const problem *p, buffon_partial *partial, const buffon_esti
     return good && same_saved(&now, end);
 }
 
-/* Fails the n-th allocation, or all from the n-th on, of a run from nothing or of one that goes on. */
+/* Fails the n-th allocation, or all from the n-th on, of a run from nothing or of one that goes
+ * on. */
 static void test_problem(const problem *p, int going_on, int all)
 {
     static saved end, begin, now;
@@ -230,8 +231,9 @@ static void test_other_calls(void)
     const buffon_rng was = rng;
     double x[8] = {0};
     arm(1, 0);
-    tap_ok(buffon_rejection_sample(x, 8, NULL, &f, &g, 1, &rng, 0) == BUFFON_E_NOMEM && isnan(x[7]) &&
-           memcmp(&rng, &was, sizeof rng) == 0, "the rejection sampler draws nothing without memory");
+    tap_ok(buffon_rejection_sample(x, 8, NULL, &f, &g, 1, &rng, 0) == BUFFON_E_NOMEM &&
+               isnan(x[7]) && memcmp(&rng, &was, sizeof rng) == 0,
+           "the rejection sampler draws nothing without memory");
     for (long n = 1; n <= 2; n++) {
         arm(n, 0);
         tap_ok(buffon_sample_at(x, &g, 5, NULL) == BUFFON_E_NOMEM && isnan(x[0]),

@@ -120,8 +120,12 @@ static void test_uniform(const formula *f)
     static table t;
     buffon_partial partial = {0};
     const buffon_integrand three = {.batch = problem_three, .dim = 2, .components = 3};
-    const buffon_run run = {.samples = f->n, .seed = 8, .points = f->points, .confidence = 0.9,
-                            .covariance = 1, .partial = &partial};
+    const buffon_run run = {.samples = f->n,
+                            .seed = 8,
+                            .points = f->points,
+                            .confidence = 0.9,
+                            .covariance = 1,
+                            .partial = &partial};
     buffon_estimate e[3];
     double cov[9];
     table_fill(&t, f->points, f->n);
@@ -170,7 +174,7 @@ static void test_share(void)
         }
         expected[design] = most / sum;
         tap_ok(buffon_uniform(e, &three, box_lo, box_hi, &run) >= 0 &&
-               near_to(e[1].max_share, expected[design], 1e-12),
+                   near_to(e[1].max_share, expected[design], 1e-12),
                "the share of the largest deviation is %.3Lf", expected[design]);
     }
 }
@@ -184,8 +188,8 @@ static void test_ratio(const formula *f)
     const buffon_density g = buffon_box(box_lo, box_hi, 2);
     const buffon_integrand h = {.batch = problem_three, .dim = 2, .components = 3};
     const buffon_integrand p = {.scalar = problem_weight, .dim = 2};
-    const buffon_run run = {.samples = f->n, .seed = 8, .points = f->points, .covariance = 1,
-                            .partial = &partial};
+    const buffon_run run = {
+        .samples = f->n, .seed = 8, .points = f->points, .covariance = 1, .partial = &partial};
     static double rest[3][MOST], w[MOST];
     buffon_estimate e[3];
     double cov[9];
@@ -264,8 +268,9 @@ static void test_strata(void)
     }
     const buffon_status status = buffon_stratified(&e, &f, &strata, &run);
     tap_ok(status >= 0 && e.samples == 502 && near_to(e.value, value, 1e-14) &&
-           near_to(e.std_error, sqrtl(square), 1e-13) &&
-           near_to(e.variance, square * 502, 1e-13), "strata: value, std_error and variance");
+               near_to(e.std_error, sqrtl(square), 1e-13) &&
+               near_to(e.variance, square * 502, 1e-13),
+           "strata: value, std_error and variance");
     tap_ok(interval_fits(&e, (double)(square * square / quartic), 1),
            "strata: Student's interval with %.2Lf degrees of freedom", square * square / quartic);
     tap_ok(near_to(e.max, fmaxl(0.5L * 4.5L * 49, 1), 0.05) && e.min < -3 * 1.5 * 5.9,
@@ -291,16 +296,18 @@ static void test_hits(void)
     }
     const real p = (real)hits / 500;
     const buffon_status status = buffon_rejection(&e, &f, &lo, &hi, 4.5, &run);
-    tap_ok(status == BUFFON_OK && near_to(e.acceptance, p, 1e-15) && near_to(e.value, 9 * p, 1e-15) &&
-           near_to(e.std_error, 9 * sqrtl(p * (1 - p) / 499), 1e-13) &&
-           near_to(e.variance, 81 * p * (1 - p) * 500 / 499, 1e-13) && e.min == 0 && e.max == 9,
+    tap_ok(status == BUFFON_OK && near_to(e.acceptance, p, 1e-15) &&
+               near_to(e.value, 9 * p, 1e-15) &&
+               near_to(e.std_error, 9 * sqrtl(p * (1 - p) / 499), 1e-13) &&
+               near_to(e.variance, 81 * p * (1 - p) * 500 / 499, 1e-13) && e.min == 0 && e.max == 9,
            "hits: %llu of 500", (unsigned long long)hits);
     tap_ok(buffon_interval_clopper_pearson(&a, &b, hits, 500, 0.99) == BUFFON_OK &&
-           e.interval == BUFFON_INTERVAL_CLOPPER_PEARSON && near_to(e.lo, 9 * a, 1e-12) &&
-           near_to(e.hi, 9 * b, 1e-12), "their interval is Clopper and Pearson's");
+               e.interval == BUFFON_INTERVAL_CLOPPER_PEARSON && near_to(e.lo, 9 * a, 1e-12) &&
+               near_to(e.hi, 9 * b, 1e-12),
+           "their interval is Clopper and Pearson's");
     run.points = &pairs;
-    tap_ok(buffon_rejection(&e, &f, &lo, &hi, 4.5, &run) == BUFFON_OK &&
-           interval_fits(&e, 249, 1), "of pairs, which are not independent, Student's");
+    tap_ok(buffon_rejection(&e, &f, &lo, &hi, 4.5, &run) == BUFFON_OK && interval_fits(&e, 249, 1),
+           "of pairs, which are not independent, Student's");
 }
 
 /* ---- looks ---- */
@@ -313,12 +320,14 @@ static void test_looks(void)
     buffon_run run = {.samples = 100000, .seed = 8, .rel_tol = 0.02};
     buffon_estimate e, fixed;
     tap_ok(buffon_uniform(&e, &f, &lo, &hi, &run) == BUFFON_OK && e.looks == 5 &&
-           e.samples == 16384 && interval_fits(&e, 16383, 5), "five looks: alpha / 5 at each");
+               e.samples == 16384 && interval_fits(&e, 16383, 5),
+           "five looks: alpha / 5 at each");
     run.samples = 16384;
     run.rel_tol = 0;
     tap_ok(buffon_uniform(&fixed, &f, &lo, &hi, &run) == BUFFON_OK && fixed.value == e.value &&
-           fixed.std_error == e.std_error && fixed.variance == e.variance && fixed.looks == 1 &&
-           interval_fits(&fixed, 16383, 1), "one look: alpha");
+               fixed.std_error == e.std_error && fixed.variance == e.variance && fixed.looks == 1 &&
+               interval_fits(&fixed, 16383, 1),
+           "one look: alpha");
 }
 
 int main(void)

@@ -73,13 +73,15 @@ static void test_empty(void)
     size_t size;
     unsigned char *bytes = save(&empty, &size);
     tap_ok(size > 0 && buffon_partial_load(&loaded, bytes, size) == BUFFON_OK &&
-           loaded.more == NULL && buffon_partial_components(&loaded) == 0, "an empty partial travels");
+               loaded.more == NULL && buffon_partial_components(&loaded) == 0,
+           "an empty partial travels");
     if (solve(&full, &problems[0], (buffon_run){.samples = 100}) < 0)
         exit(1);
     tap_ok(buffon_partial_load(&full, bytes, size) == BUFFON_OK && full.more == NULL,
            "loading an empty one frees what was there");
     tap_ok(buffon_partial_estimate(&e, &empty, 0) == BUFFON_E_EMPTY &&
-           is_refusal(&e, BUFFON_E_EMPTY), "it has no estimate");
+               is_refusal(&e, BUFFON_E_EMPTY),
+           "it has no estimate");
     tap_ok(buffon_partial_covariance(&cov, &empty) == BUFFON_E_EMPTY, "and no covariance");
     tap_ok(buffon_partial_merge(&full, &empty) == BUFFON_OK && full.more == NULL,
            "empty and empty is empty");
@@ -116,8 +118,9 @@ static double eighth(const double *x, void *ctx)
     return x[0] < 0.25 ? -2.5 : 3;
 }
 
-/* Four points by replay in blocks of 16: one short block. The layout is magic, version, words, shape
- * (15), weight, target, done, then the statistics of whole blocks and of the short one, checksum. */
+/* Four points by replay in blocks of 16: one short block. The layout is magic, version, words,
+ * shape (15), weight, target, done, then the statistics of whole blocks and of the short one,
+ * checksum. */
 static void test_layout(void)
 {
     static const double u[] = {0.125, 0.375, 0.625, 0.875};
@@ -137,17 +140,20 @@ static void test_layout(void)
     tap_ok(memcmp(b, "BPARTIAL", 8) == 0 && word_at(b, 1) == 1 && word_at(b, 2) == size / 8,
            "magic, version and size, little end first");
     tap_ok(word_at(b, 12) == 16 && word_at(b, TARGET) == 4 && word_at(b, TARGET + 1) == 0 &&
-           double_at(b, TARGET - 1) == 1, "block, weight, target, and no whole block done");
+               double_at(b, TARGET - 1) == 1,
+           "block, weight, target, and no whole block done");
     tap_ok(word_at(b, WHOLE) == 0 && word_at(b, TAIL) == 4 && double_at(b, TAIL + 2) == -2.5 &&
-           double_at(b, TAIL + 3) == 3, "count and extremes of the short block");
+               double_at(b, TAIL + 3) == 3,
+           "count and extremes of the short block");
     /* The sum 6.5 = 13 2^-1 in units of 2^-1152: bit 1151 on is limb 17, bit 63. */
     tap_ok(word_at(b, TAIL + 4 + 17) == UINT64_C(13) << 63 &&
-           word_at(b, TAIL + 4 + 18) == UINT64_C(13) >> 1 && word_at(b, TAIL + 4 + 19) == 0,
+               word_at(b, TAIL + 4 + 18) == UINT64_C(13) >> 1 && word_at(b, TAIL + 4 + 19) == 0,
            "the sum, a fixed-point number");
     /* The squares 33.25 = 133 2^-2 in units of 2^-2304: bit 2302 is limb 35, bit 62. */
     const size_t squares = TAIL + 4 + BUFFON_STATS_SUM;
     tap_ok(word_at(b, squares + 35) == UINT64_C(133) << 62 &&
-           word_at(b, squares + 36) == UINT64_C(133) >> 2, "the sum of squares");
+               word_at(b, squares + 36) == UINT64_C(133) >> 2,
+           "the sum of squares");
     const size_t top = squares + BUFFON_STATS_SQUARES;
     tap_ok(double_at(b, top) == 3 && double_at(b, top + 3) == 2.5 && double_at(b, top + 4) == 0,
            "the largest magnitudes");
@@ -187,7 +193,8 @@ static void test_damage(void)
         for (unsigned flip = 1; flip < 256; flip = flip * 3 + 1) {
             bytes[i] ^= (unsigned char)flip;
             const buffon_status status = buffon_partial_load(&kept, bytes, size);
-            flipped &= (status == BUFFON_E_CORRUPT || status == BUFFON_E_SIZE) && kept.more == before;
+            flipped &=
+                (status == BUFFON_E_CORRUPT || status == BUFFON_E_SIZE) && kept.more == before;
             flipped &= i >= 16 || status == BUFFON_E_CORRUPT; /* magic or version */
             bytes[i] ^= (unsigned char)flip;
         }
@@ -236,8 +243,8 @@ static buffon_status vary(buffon_partial *partial, const variation *v)
     const double lo[] = {v->lo, 0}, hi[] = {v->hi, 1};
     const size_t dim = v->dim > 0 ? (size_t)v->dim : 1;
     const buffon_integrand f = {.scalar = cube, .dim = dim};
-    const buffon_density g = v->estimator == 4 ? buffon_segment(v->lo, v->hi + 1)
-                                               : buffon_box(lo, hi, dim);
+    const buffon_density g =
+        v->estimator == 4 ? buffon_segment(v->lo, v->hi + 1) : buffon_box(lo, hi, dim);
     const buffon_density disk = buffon_disk(v->hi);
     const buffon_integrand plane = {.scalar = cube, .dim = 2};
     const buffon_stratum list[] = {{.density = &g, .weight = v->height}};
@@ -246,14 +253,22 @@ static buffon_status vary(buffon_partial *partial, const variation *v)
     buffon_estimate e;
     run.partial = partial;
     switch (v->estimator) {
-    case 0: return buffon_uniform(&e, &f, lo, hi, &run);
-    case 1: return buffon_rejection(&e, &f, lo, hi, v->height, &run);
-    case 2: return buffon_expectation(&e, &f, &g, &run);
-    case 3: return buffon_expectation(&e, &plane, &disk, &run);
-    case 4: return buffon_importance(&e, &f, &g, &run);
-    case 5: return buffon_self_normalised(&e, &f, &f, &g, &run);
-    case 6: return buffon_stratified(&e, &f, &strata, &run);
-    default: return buffon_importance(&e, &f, &g, &run);
+    case 0:
+        return buffon_uniform(&e, &f, lo, hi, &run);
+    case 1:
+        return buffon_rejection(&e, &f, lo, hi, v->height, &run);
+    case 2:
+        return buffon_expectation(&e, &f, &g, &run);
+    case 3:
+        return buffon_expectation(&e, &plane, &disk, &run);
+    case 4:
+        return buffon_importance(&e, &f, &g, &run);
+    case 5:
+        return buffon_self_normalised(&e, &f, &f, &g, &run);
+    case 6:
+        return buffon_stratified(&e, &f, &strata, &run);
+    default:
+        return buffon_importance(&e, &f, &g, &run);
     }
 }
 
@@ -284,8 +299,8 @@ static void test_mismatch(void)
 {
     const buffon_points pairs = buffon_points_antithetic(), jitter = buffon_points_jitter(3);
     const buffon_points finer = buffon_points_jitter(9), kronecker = problem_kronecker();
-    const variation base = {.run = {.samples = 5000, .block = 256, .parts = 2},
-                            .lo = 0, .hi = 1, .height = 1};
+    const variation base = {
+        .run = {.samples = 5000, .block = 256, .parts = 2}, .lo = 0, .hi = 1, .height = 1};
     variation v = base, w;
     v.run.seed = 1;
     mismatch("seed", &base, &v);
@@ -397,8 +412,8 @@ static void test_gap(void)
             good &= buffon_partial_merge(&part, &all) == BUFFON_OK;
         const buffon_status status = buffon_partial_estimate(&e, i == 2 ? &part : &all, 0);
         good &= status == BUFFON_W_INCOMPLETE && e.samples == 4096 * (i == 3 ? 3 : i + 1);
-        /* A sweep is two blocks: the parts hold halves of different ones, in which the spread between
-         * the cells shows; a whole sweep has nearly none. */
+        /* A sweep is two blocks: the parts hold halves of different ones, in which the spread
+         * between the cells shows; a whole sweep has nearly none. */
         good &= e.std_error > 1e-3;
         buffon_partial_free(&part);
     }
@@ -420,22 +435,28 @@ static void test_nulls(void)
     if (solve(&partial, &problems[0], (buffon_run){.samples = 100}) < 0)
         exit(1);
     tap_ok(buffon_partial_merge(NULL, &partial) == BUFFON_E_NULL &&
-           buffon_partial_merge(&partial, NULL) == BUFFON_E_NULL, "merge with NULL");
+               buffon_partial_merge(&partial, NULL) == BUFFON_E_NULL,
+           "merge with NULL");
     tap_ok(buffon_partial_estimate(NULL, &partial, 0) == BUFFON_E_NULL &&
-           buffon_partial_estimate(&e, NULL, 0) == BUFFON_E_NULL && is_refusal(&e, BUFFON_E_NULL),
+               buffon_partial_estimate(&e, NULL, 0) == BUFFON_E_NULL &&
+               is_refusal(&e, BUFFON_E_NULL),
            "estimate of or into NULL");
     static const double bad[] = {1, -0.5, 2, NAN, INFINITY};
     for (int i = 0; i < 5; i++)
         tap_ok(buffon_partial_estimate(&e, &partial, bad[i]) == BUFFON_E_CONFIDENCE &&
-               is_refusal(&e, BUFFON_E_CONFIDENCE), "confidence %g", bad[i]);
+                   is_refusal(&e, BUFFON_E_CONFIDENCE),
+               "confidence %g", bad[i]);
     tap_ok(buffon_partial_covariance(NULL, &partial) == BUFFON_E_NULL &&
-           buffon_partial_covariance(cov, NULL) == BUFFON_E_NULL, "covariance of or into NULL");
+               buffon_partial_covariance(cov, NULL) == BUFFON_E_NULL,
+           "covariance of or into NULL");
     tap_ok(buffon_partial_covariance(cov, &partial) == BUFFON_E_UNSUPPORTED && isnan(cov[0]),
            "covariance that was not kept");
     tap_ok(buffon_partial_save(NULL, 512, &partial) == BUFFON_E_NULL &&
-           buffon_partial_save(bytes, 512, NULL) == BUFFON_E_NULL, "save of or into NULL");
+               buffon_partial_save(bytes, 512, NULL) == BUFFON_E_NULL,
+           "save of or into NULL");
     tap_ok(buffon_partial_load(NULL, bytes, 512) == BUFFON_E_NULL &&
-           buffon_partial_load(&partial, NULL, 512) == BUFFON_E_NULL, "load of or into NULL");
+               buffon_partial_load(&partial, NULL, 512) == BUFFON_E_NULL,
+           "load of or into NULL");
     buffon_partial_free(&partial);
 }
 
@@ -448,7 +469,8 @@ static void test_confidence(void)
     int good = problems[0].solve(&e, run) == BUFFON_OK;
     good &= buffon_partial_estimate(&wide, &partial, 0.999) == BUFFON_OK;
     tap_ok(good && wide.value == e.value && wide.lo < e.lo && wide.hi > e.hi &&
-           wide.confidence == 0.999 && e.confidence == 0.95, "another confidence, afterwards");
+               wide.confidence == 0.999 && e.confidence == 0.95,
+           "another confidence, afterwards");
     buffon_partial_free(&partial);
 }
 

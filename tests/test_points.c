@@ -43,7 +43,8 @@ static void test_stretches(const char *name, const buffon_points *points, size_t
             length = t % 2 ? length : length % 20;
             same &= fill(part, points, dim, start + first, length, &main_key) == 0;
             for (size_t j = 0; j < dim; j++)
-                same &= memcmp(part + j * length, whole + j * n + first, length * sizeof *part) == 0;
+                same &=
+                    memcmp(part + j * length, whole + j * n + first, length * sizeof *part) == 0;
         }
     }
     tap_ok(same, "%s, dim %zu: any stretch has the same points", name, dim);
@@ -98,9 +99,10 @@ static void test_antithetic_error(void)
     const buffon_run run = {.samples = 10001, .points = &pairs};
     buffon_estimate e;
     tap_ok(buffon_uniform(&e, &odd, lo, hi, &run) >= 0 && e.samples == 10002 &&
-           fabs(e.value + 0.5) < 1e-15 && e.std_error < 1e-17, "antithetic: linear integrands exactly");
+               fabs(e.value + 0.5) < 1e-15 && e.std_error < 1e-17,
+           "antithetic: linear integrands exactly");
     tap_ok(buffon_uniform(&e, &worst, lo, hi, &run) == BUFFON_OK &&
-           fabs(e.std_error * e.std_error * 10002 / (2 * e.variance) - 1) < 0.05,
+               fabs(e.std_error * e.std_error * 10002 / (2 * e.variance) - 1) < 0.05,
            "antithetic: even integrands at twice the variance, and the error says so");
 }
 
@@ -144,8 +146,8 @@ static void test_jitter(size_t k, size_t dim)
            2 * cells);
 }
 
-/* The first cell of a sweep, and the way from it to the second, are uniform: so a prefix is a random
- * sample of the cells. Within its cell a point is uniform. */
+/* The first cell of a sweep, and the way from it to the second, are uniform: so a prefix is a
+ * random sample of the cells. Within its cell a point is uniform. */
 static void test_jitter_law(void)
 {
     enum { K = 12, SWEEPS = 20000 };
@@ -182,7 +184,11 @@ static void test_jitter_prefix(void)
     double sum = 0, sum2 = 0, error = 0;
     for (uint64_t seed = 0; seed < RUNS; seed++) {
         buffon_partial partial = {0};
-        buffon_run run = {.samples = 128, .block = 16, .seed = seed, .parts = 2, .points = &points,
+        buffon_run run = {.samples = 128,
+                          .block = 16,
+                          .seed = seed,
+                          .parts = 2,
+                          .points = &points,
                           .partial = &partial};
         buffon_estimate e;
         if (buffon_uniform(&e, &f, &lo, &hi, &run) < 0 || e.samples != 64)
@@ -194,7 +200,8 @@ static void test_jitter_prefix(void)
     }
     const double sd = sqrt(sum2 / RUNS), se = sqrt(error / RUNS);
     law_ok(law_normal(sum / RUNS / (sd / sqrt(RUNS))), "jitter: half a sweep is unbiased");
-    tap_ok(se > 0.95 * sd && se < 2 * sd, "jitter: and its error bar is not too short (%.3f)", se / sd);
+    tap_ok(se > 0.95 * sd && se < 2 * sd, "jitter: and its error bar is not too short (%.3f)",
+           se / sd);
 }
 
 /* 1/12 of f'^2 over each cell is all the variance that is left: it falls as k^-2 more. */
@@ -230,9 +237,10 @@ static void test_replay(void)
     tap_ok(fill(got, &points, 2, 0, N, &main_key) == 0 && memcmp(got, u, sizeof u) == 0,
            "replay gives what it was given");
     tap_ok(fill(got, &points, 2, 0, N + 1, &main_key) != 0 &&
-           fill(got, &points, 2, N - 1, 2, &main_key) != 0 &&
-           fill(got, &points, 2, N + 1, 0, &main_key) != 0 &&
-           fill(got, &points, 1, 0, 1, &main_key) != 0, "and nothing that it does not hold");
+               fill(got, &points, 2, N - 1, 2, &main_key) != 0 &&
+               fill(got, &points, 2, N + 1, 0, &main_key) != 0 &&
+               fill(got, &points, 1, 0, 1, &main_key) != 0,
+           "and nothing that it does not hold");
     const buffon_integrand f = {.scalar = linear, .dim = 2};
     const double lo[] = {0, 0}, hi[] = {1, 1};
     buffon_run run = {.samples = N, .points = &points};
@@ -244,14 +252,15 @@ static void test_replay(void)
     tap_ok(buffon_uniform(&same, &f, lo, hi, &run) == BUFFON_OK && same_estimate(&e, &same),
            "replay: the seed plays no part");
     run.samples = N + 1;
-    tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_SAMPLES && is_refusal(&e, BUFFON_E_SAMPLES),
+    tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_SAMPLES &&
+               is_refusal(&e, BUFFON_E_SAMPLES),
            "replay: more samples than it has are refused");
     run.samples = N;
     for (size_t b = 0; b < sizeof bad / sizeof *bad; b++) {
         const double kept = u[N + 63];
         u[N + 63] = bad[b];
         tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_POINTS &&
-               is_refusal(&e, BUFFON_E_POINTS) && e.bad_index == UINT64_MAX,
+                   is_refusal(&e, BUFFON_E_POINTS) && e.bad_index == UINT64_MAX,
                "replay: a coordinate of %g is refused", bad[b]);
         u[N + 63] = kept;
     }
@@ -272,7 +281,8 @@ static void test_replay_designs(void)
     points = buffon_points_replay(u, 1, 6, BUFFON_DESIGN_NONE);
     good &= buffon_uniform(&c, &f, lo, hi, &run) == BUFFON_W_NO_ERROR;
     tap_ok(good && a.value == b.value && a.value == c.value && b.std_error < a.std_error / 3 &&
-           b.std_error > 0 && isnan(c.std_error), "replay: the error is that of its design");
+               b.std_error > 0 && isnan(c.std_error),
+           "replay: the error is that of its design");
     tap_ok(buffon_uniform(&a, &g, lo, hi, &run) == BUFFON_E_POINTS, "replay: another dimension");
     for (int design = -1; design < 6; design++) {
         points = buffon_points_replay(u, 1, 6, (buffon_design)design);
@@ -360,30 +370,39 @@ static void test_hooks(void)
 {
     const double lo[] = {0, 0, 0, 0}, hi[] = {1, 1, 1, 1};
     counts c = {0, 0, 0};
-    buffon_points points = {.fill = count_fill, .table_size = count_size, .prepare = count_prepare,
-                            .design = BUFFON_DESIGN_REPLICATES, .replicates = 5, .ctx = &c};
-    const buffon_run run = {.samples = 9001, .seed = 9, .stream = 8, .points = &points, .threads = 2};
+    buffon_points points = {.fill = count_fill,
+                            .table_size = count_size,
+                            .prepare = count_prepare,
+                            .design = BUFFON_DESIGN_REPLICATES,
+                            .replicates = 5,
+                            .ctx = &c};
+    const buffon_run run = {
+        .samples = 9001, .seed = 9, .stream = 8, .points = &points, .threads = 2};
     buffon_integrand f = {.scalar = flat, .dim = 2};
     const buffon_density box[2] = {buffon_box(lo, hi, 2), buffon_box(lo, hi, 2)};
     const buffon_stratum list[] = {{.density = &box[0]}, {.density = &box[1]}};
     const buffon_strata strata = {.stratum = list, .count = 2};
     buffon_estimate e;
     tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_OK && c.prepared == 5 && c.dim == 2 &&
-           e.samples == 9005, "a table is prepared for each replicate, once");
+               e.samples == 9005,
+           "a table is prepared for each replicate, once");
     c.prepared = 0;
     tap_ok(buffon_stratified(&e, &f, &strata, &run) == BUFFON_OK && c.prepared == 10,
            "and for each stratum");
     c.prepared = 0;
     tap_ok(buffon_rejection(&e, &f, lo, hi, 1, &run) == BUFFON_E_POINTS && c.prepared == 0 &&
-           c.dim == 3, "a table of SIZE_MAX: not for that dimension (one more, by rejection)");
+               c.dim == 3,
+           "a table of SIZE_MAX: not for that dimension (one more, by rejection)");
     f.dim = 4;
     tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_POINTS && c.prepared == 1 &&
-           is_refusal(&e, BUFFON_E_POINTS), "a table that cannot be prepared");
+               is_refusal(&e, BUFFON_E_POINTS),
+           "a table that cannot be prepared");
     double x[4];
     f.dim = 2;
     tap_ok(buffon_sample_at(x, &box[0], 17, &run) == BUFFON_OK, "sample_at prepares its table too");
     points.design = BUFFON_DESIGN_ANTITHETIC;
-    tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_POINTS, "pairs must round to even numbers");
+    tap_ok(buffon_uniform(&e, &f, lo, hi, &run) == BUFFON_E_POINTS,
+           "pairs must round to even numbers");
 }
 
 int main(void)

@@ -1,9 +1,9 @@
-/* Interruptions: a run that is cancelled at any point and resumed, as often as you like, ends with the
- * bits of a run that was left alone. And what the progress callback is told, when and where.
+/* Interruptions: a run that is cancelled at any point and resumed, as often as you like, ends
+ * with the bits of a run that was left alone. And what the progress callback is told, when and
+ * where.
  *
- * The clock is this file's own (the linker puts it in place of the system's), so rounds of every size
- * occur, and the same ones on every machine.
- */
+ * The clock is this file's own (the linker puts it in place of the system's), so rounds of every
+ * size occur, and the same ones on every machine. / */
 #define _POSIX_C_SOURCE 200809L
 
 #include <pthread.h>
@@ -102,7 +102,8 @@ static int cancel_at_whim(const buffon_progress *progress, void *ctx)
     return buffon_rng_below(&w->rng, w->one_in) == 0;
 }
 
-/* Is this a valid estimate of what is done, and the one that the partial gives but for the status? */
+/* Is this a valid estimate of what is done, and the one that the partial gives but for the
+ * status? */
 static int is_cancelled(const problem *p, const result *r)
 {
     buffon_estimate e[PROBLEMS_COMPONENTS];
@@ -167,8 +168,7 @@ static void test_cancel_parts(const problem *p, buffon_run run)
             solve(&part[i], p, run);
             cancels++;
         } while (part[i].status == BUFFON_W_CANCELLED && cancels < 10000);
-        good &= i == 0 ||
-                buffon_partial_merge(&part[0].partial, &part[i].partial) == BUFFON_OK;
+        good &= i == 0 || buffon_partial_merge(&part[0].partial, &part[i].partial) == BUFFON_OK;
         buffon_partial_free(&part[i > 0 ? i : 1].partial);
     }
     good &= buffon_partial_estimate(e, &part[0].partial, 0) == expected.status;
@@ -183,7 +183,7 @@ static void test_cancel_parts(const problem *p, buffon_run run)
 typedef struct witness {
     pthread_t caller;
     const problem *p;
-    buffon_run run;          /* without progress, to resume from within */
+    buffon_run run; /* without progress, to resume from within */
     const result *expected;
     uint64_t done, total;
     double last_call;
@@ -247,15 +247,15 @@ static void test_watch(const problem *p, buffon_run run, int with_partial, const
     const buffon_status status = p->solve(e, run);
     tap_ok(status == expected.status && same_estimates(e, expected.e, p->components),
            "%s%s: watching changes no bit", p->name, how);
-    tap_ok(w.foreign == 0 && w.calls >= 8, "%s%s: %d calls, all on the caller's thread", p->name, how,
-           w.calls);
+    tap_ok(w.foreign == 0 && w.calls >= 8, "%s%s: %d calls, all on the caller's thread", p->name,
+           how, w.calls);
     tap_ok(w.wrong == 0 && w.done == w.total && w.done == e->samples,
            "%s%s: done grows to the total", p->name, how);
     tap_ok(w.early == 0, "%s%s: at most ten calls a second", p->name, how);
     tap_ok(same_estimates(w.last, e, p->components), "%s%s: the last call has the result", p->name,
            how);
-    tap_ok(w.resumed > 0 && w.unlike == 0, "%s%s: what it is shown can be saved and resumed", p->name,
-           how);
+    tap_ok(w.resumed > 0 && w.unlike == 0, "%s%s: what it is shown can be saved and resumed",
+           p->name, how);
     buffon_partial_free(&partial);
     buffon_partial_free(&expected.partial);
 }
@@ -305,7 +305,7 @@ static void test_edges(void)
     run.progress = NULL;
     run.samples = 1024;
     tap_ok(p->solve(&alone, run) == BUFFON_OK && e.value == alone.value &&
-           e.std_error == alone.std_error && e.lo == alone.lo && e.hi == alone.hi,
+               e.std_error == alone.std_error && e.lo == alone.lo && e.hi == alone.hi,
            "which is that of a run of so many samples");
 }
 

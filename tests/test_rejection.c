@@ -129,8 +129,8 @@ static int is_cut(const buffon_rejection_report *r, size_t n, size_t from)
 
 static void test_bound(void)
 {
-    static const double values[] = {1.5, 1.0000000000000002, 1e308, -0x1p-1074, NAN, INFINITY,
-                                    -INFINITY};
+    static const double values[] = {1.5, 1.0000000000000002, 1e308,    -0x1p-1074,
+                                    NAN, INFINITY,           -INFINITY};
     const buffon_density g = buffon_segment(0, 1);
     buffon_rejection_report r;
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
@@ -143,7 +143,7 @@ static void test_bound(void)
             tap_ok(status == BUFFON_OK && r.worst == value, "a bound met but for rounding");
         else if (i < 4)
             tap_ok(status == BUFFON_E_BOUND && is_cut(&r, 1000, at + 1) && x[at] > 0.9 &&
-                   r.worst == (value > 0 ? value : 0.5),
+                       r.worst == (value > 0 ? value : 0.5),
                    "f = %g: the bound fails, here", value);
         else
             tap_ok(status == BUFFON_E_NONFINITE && is_cut(&r, 1000, at), "f = %g", value);
@@ -180,7 +180,8 @@ static void test_density(void)
         const buffon_density g = {.uniforms = 1, .dim = 1, .ops = &ops, .param = {values[i]}};
         buffon_rng rng = buffon_rng_make(3, 0);
         tap_ok(buffon_rejection_sample(x, 1000, &r, &f, &g, 1, &rng, 0) == BUFFON_E_PDF &&
-               is_cut(&r, 1000, (size_t)r.accepted), "g = %g", values[i]);
+                   is_cut(&r, 1000, (size_t)r.accepted),
+               "g = %g", values[i]);
     }
     const buffon_density g = {.uniforms = 1, .dim = 1, .ops = &ops, .param = {1, 1}};
     buffon_rng rng = buffon_rng_make(3, 0);
@@ -190,7 +191,7 @@ static void test_density(void)
     const buffon_integrand stops = {.batch = stop, .dim = 1, .ctx = &calls};
     const buffon_density box = buffon_segment(0, 1);
     tap_ok(buffon_rejection_sample(x, N, &r, &stops, &box, 1, &rng, 0) == BUFFON_E_STOPPED &&
-           r.accepted > 0 && isnan(x[r.accepted]) && isnan(x[N - 1]) && calls == 4,
+               r.accepted > 0 && isnan(x[r.accepted]) && isnan(x[N - 1]) && calls == 4,
            "an integrand that stops");
 }
 
@@ -210,10 +211,11 @@ static void test_tries(void)
     buffon_rng rng = buffon_rng_make(3, 0), other = rng;
     buffon_rejection_report r, exact;
     tap_ok(buffon_rejection_sample(x, 10, &r, &none, &g, 1, &rng, 0) == BUFFON_E_TRIES &&
-           r.tries == 11000 && r.accepted == 0 && r.acceptance == 0 && isnan(x[0]),
+               r.tries == 11000 && r.accepted == 0 && r.acceptance == 0 && isnan(x[0]),
            "it gives up after 1000 n + 1000 tries");
     tap_ok(buffon_rejection_sample(x, 10, &r, &none, &g, 1, &rng, 777) == BUFFON_E_TRIES &&
-           r.tries == 777, "or when it is told to");
+               r.tries == 777,
+           "or when it is told to");
     rng = other;
     int good = buffon_rejection_sample(x, 100, &r, &f, &g, 1, &rng, 0) == BUFFON_OK;
     rng = other;

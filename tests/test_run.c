@@ -1,5 +1,5 @@
-/* How runs end and what they say of it: tolerances, looks, every reservation; callbacks that call the
- * library; and what scaling, shifting or permuting a problem does to its estimate. */
+/* How runs end and what they say of it: tolerances, looks, every reservation; callbacks that call
+ * the library; and what scaling, shifting or permuting a problem does to its estimate. */
 #include <stdlib.h>
 
 #include "problems.h"
@@ -51,7 +51,8 @@ static void test_tolerance(const problem *p)
             met &= meets(&e[k], 0, tol);
         while (j < 4 && looks[j + 1] <= e->samples)
             j++;
-        good &= e->looks == 5 && (met || status == BUFFON_W_TOLERANCE || status == BUFFON_W_NONFINITE);
+        good &=
+            e->looks == 5 && (met || status == BUFFON_W_TOLERANCE || status == BUFFON_W_NONFINITE);
         good &= met == ((e->doubts & BUFFON_DOUBT(BUFFON_W_TOLERANCE)) == 0);
         /* Point sets and strata round up, then blocks do; never beyond the next look. */
         good &= j == 4 || e->samples < looks[j] + looks[j] / 2;
@@ -80,17 +81,20 @@ static void test_tolerances(void)
     buffon_run run = {.samples = 1000000, .abs_tol = 3e-3};
     buffon_estimate e;
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &run) == BUFFON_OK && meets(&e, 3e-3, 0) &&
-           e.samples < 1000000, "an absolute tolerance");
+               e.samples < 1000000,
+           "an absolute tolerance");
     run.rel_tol = 1e-9;
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &run) == BUFFON_OK && meets(&e, 3e-3, 0),
            "of two tolerances the wider one is enough");
     run.samples = 5000;
     run.abs_tol = 0.1;
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &run) == BUFFON_OK && e.looks == 1 &&
-           e.samples == 5000, "below 2^13 samples there is one look");
+               e.samples == 5000,
+           "below 2^13 samples there is one look");
     run.samples = 8193;
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &run) == BUFFON_OK && e.looks == 2 &&
-           e.samples == 8192, "just above there are two");
+               e.samples == 8192,
+           "just above there are two");
     run.samples = 8192;
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &run) == BUFFON_OK && e.looks == 1,
            "at 2^13 there is one");
@@ -104,11 +108,11 @@ static void test_rare(void)
     const buffon_run run = {.samples = 100000, .seed = 1, .rel_tol = 0.5, .abs_tol = 0.01};
     buffon_estimate e;
     tap_ok(buffon_uniform(&e, &rare, &zero, &one, &run) == BUFFON_W_NO_SPREAD && e.value == 0 &&
-           e.samples == 100000 && e.lo == -INFINITY && e.hi == INFINITY &&
-           e.doubts == (BUFFON_DOUBT(BUFFON_W_NO_SPREAD) | BUFFON_DOUBT(BUFFON_W_TOLERANCE)),
+               e.samples == 100000 && e.lo == -INFINITY && e.hi == INFINITY &&
+               e.doubts == (BUFFON_DOUBT(BUFFON_W_NO_SPREAD) | BUFFON_DOUBT(BUFFON_W_TOLERANCE)),
            "zero hits meet no tolerance");
     tap_ok(buffon_rejection(&e, &rare, &zero, &one, 1, &run) == BUFFON_W_NO_SPREAD &&
-           e.samples == 100000 && e.lo == 0 && e.hi < 1e-4 && e.hi > 1e-7,
+               e.samples == 100000 && e.lo == 0 && e.hi < 1e-4 && e.hi > 1e-7,
            "nor do they by rejection, whose interval is still true");
     p = 1e-3;
     const buffon_status status = buffon_uniform(&e, &rare, &zero, &one, &run);
@@ -124,16 +128,18 @@ static void test_constant(void)
     const double lo = 0, hi = 8;
     buffon_estimate e;
     tap_ok(buffon_uniform(&e, &f, &lo, &hi, &run) == BUFFON_W_NO_SPREAD && e.samples == 100000 &&
-           e.value == 8.0 / 3 && e.std_error == 0 && e.interval == BUFFON_INTERVAL_NONE,
+               e.value == 8.0 / 3 && e.std_error == 0 && e.interval == BUFFON_INTERVAL_NONE,
            "a constant is not certain");
     run.constant = 1;
     tap_ok(buffon_uniform(&e, &f, &lo, &hi, &run) == BUFFON_OK && e.samples == 8192 &&
-           e.value == 8.0 / 3 && e.lo == e.value && e.hi == e.value &&
-           e.interval == BUFFON_INTERVAL_EXACT, "unless the caller says so: .constant");
+               e.value == 8.0 / 3 && e.lo == e.value && e.hi == e.value &&
+               e.interval == BUFFON_INTERVAL_EXACT,
+           "unless the caller says so: .constant");
     const buffon_integrand other = {.scalar = identity, .dim = 1};
     run.rel_tol = 0;
     tap_ok(buffon_uniform(&e, &other, &lo, &hi, &run) == BUFFON_OK && e.std_error > 0 &&
-           e.interval == BUFFON_INTERVAL_STUDENT, "which does no harm where it is wrong");
+               e.interval == BUFFON_INTERVAL_STUDENT,
+           "which does no harm where it is wrong");
 }
 
 /* ---- reservations ---- */
@@ -165,31 +171,44 @@ static int has(const buffon_estimate *e, buffon_status status)
 static void test_reservations(void)
 {
     const buffon_integrand f = {.scalar = identity, .dim = 1};
-    const buffon_integrand peaked = {.scalar = spike, .dim = 1}, tailed = {.scalar = heavy, .dim = 1};
+    const buffon_integrand peaked = {.scalar = spike, .dim = 1},
+                           tailed = {.scalar = heavy, .dim = 1};
     const buffon_integrand pole = {.scalar = problem_pole, .dim = 1};
     static const double u[] = {0.125, 0.375, 0.625, 0.875};
     const buffon_points fixed = buffon_points_replay(u, 1, 4, BUFFON_DESIGN_NONE);
     buffon_partial partial = {0};
     buffon_estimate e;
-    tap_ok(buffon_uniform(&e, &f, &zero, &one, &(buffon_run){.samples = 5000, .progress = cancel}) ==
-           BUFFON_W_CANCELLED && has(&e, BUFFON_W_CANCELLED) && e.samples == 1024, "cancelled");
-    tap_ok(buffon_uniform(&e, &f, &zero, &one,
-                          &(buffon_run){.samples = 5000, .part = 1, .parts = 2, .partial = &partial}) ==
-           BUFFON_W_INCOMPLETE && has(&e, BUFFON_W_INCOMPLETE) && e.samples == 2048, "incomplete");
+    tap_ok(
+        buffon_uniform(&e, &f, &zero, &one, &(buffon_run){.samples = 5000, .progress = cancel}) ==
+                BUFFON_W_CANCELLED &&
+            has(&e, BUFFON_W_CANCELLED) && e.samples == 1024,
+        "cancelled");
+    tap_ok(buffon_uniform(
+               &e, &f, &zero, &one,
+               &(buffon_run){.samples = 5000, .part = 1, .parts = 2, .partial = &partial}) ==
+                   BUFFON_W_INCOMPLETE &&
+               has(&e, BUFFON_W_INCOMPLETE) && e.samples == 2048,
+           "incomplete");
     buffon_partial_free(&partial);
     tap_ok(buffon_uniform(&e, &pole, &zero, &one,
                           &(buffon_run){.samples = 500, .on_nonfinite = BUFFON_NONFINITE_ZERO}) ==
-           BUFFON_W_NONFINITE && has(&e, BUFFON_W_NONFINITE) && e.nonfinite > 0, "not finite");
+                   BUFFON_W_NONFINITE &&
+               has(&e, BUFFON_W_NONFINITE) && e.nonfinite > 0,
+           "not finite");
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &(buffon_run){.samples = 4, .points = &fixed}) ==
-           BUFFON_W_NO_ERROR && has(&e, BUFFON_W_NO_ERROR) && e.value == 0.5 && isnan(e.std_error) &&
-           e.lo == -INFINITY && e.hi == INFINITY, "points without an error");
+                   BUFFON_W_NO_ERROR &&
+               has(&e, BUFFON_W_NO_ERROR) && e.value == 0.5 && isnan(e.std_error) &&
+               e.lo == -INFINITY && e.hi == INFINITY,
+           "points without an error");
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &(buffon_run){.samples = 1}) == BUFFON_W_FEW &&
-           has(&e, BUFFON_W_FEW) && e.samples == 1 && e.value > 0 && e.lo == -INFINITY,
+               has(&e, BUFFON_W_FEW) && e.samples == 1 && e.value > 0 && e.lo == -INFINITY,
            "one sample has no error");
     double value = 2;
     const buffon_integrand flat = {.scalar = constant, .dim = 1, .ctx = &value};
     tap_ok(buffon_uniform(&e, &flat, &zero, &one, &(buffon_run){.samples = 500}) ==
-           BUFFON_W_NO_SPREAD && has(&e, BUFFON_W_NO_SPREAD) && e.value == 2, "no spread");
+                   BUFFON_W_NO_SPREAD &&
+               has(&e, BUFFON_W_NO_SPREAD) && e.value == 2,
+           "no spread");
     buffon_status status =
         buffon_uniform(&e, &peaked, &zero, &one, &(buffon_run){.samples = 1000, .seed = 3});
     tap_ok(status == BUFFON_W_DOMINATED && has(&e, status) && e.max_share > 0.9,
@@ -198,12 +217,15 @@ static void test_reservations(void)
     tap_ok(status > 0 && (e.doubts & BUFFON_DOUBT(BUFFON_W_HEAVY_TAIL)) != 0 && e.tail_index > 0.7,
            "a heavy tail (k = %.2f)", e.tail_index);
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &(buffon_run){.samples = 9000, .abs_tol = 1e-9}) ==
-           BUFFON_W_TOLERANCE && has(&e, BUFFON_W_TOLERANCE) && e.samples == 9000,
+                   BUFFON_W_TOLERANCE &&
+               has(&e, BUFFON_W_TOLERANCE) && e.samples == 9000,
            "a tolerance that is not reached");
     tap_ok(buffon_uniform(&e, &f, &zero, &one, &(buffon_run){.samples = 9000}) == BUFFON_OK &&
-           e.doubts == 0 && e.status == BUFFON_OK, "and none");
+               e.doubts == 0 && e.status == BUFFON_OK,
+           "and none");
     tap_ok(buffon_uniform(&e, &f, &zero, &one, NULL) == BUFFON_OK && e.samples == 1u << 20 &&
-           e.confidence == 0.95, "no options: 2^20 samples, 0.95");
+               e.confidence == 0.95,
+           "no options: 2^20 samples, 0.95");
 }
 
 /* ---- callbacks that call the library ---- */
@@ -212,7 +234,8 @@ static void test_reservations(void)
 static double inner(const double *x, void *ctx)
 {
     const buffon_integrand f = {.scalar = identity, .dim = 1};
-    const buffon_run run = {.samples = 64, .seed = 1, .threads = *(const uint32_t *)ctx, .block = 16};
+    const buffon_run run = {
+        .samples = 64, .seed = 1, .threads = *(const uint32_t *)ctx, .block = 16};
     buffon_estimate e;
     return buffon_uniform(&e, &f, &zero, x, &run) >= 0 ? e.value : NAN;
 }
@@ -227,7 +250,7 @@ static void test_nested(void)
     threads = 2;
     run.threads = 3;
     tap_ok(status == BUFFON_OK && buffon_uniform(&threaded, &f, &zero, &one, &run) == status &&
-           same_estimate(&e, &threaded) && fabs(e.value - 1.0 / 6) < 6 * e.std_error + 0.05,
+               same_estimate(&e, &threaded) && fabs(e.value - 1.0 / 6) < 6 * e.std_error + 0.05,
            "an integrand may integrate, threads within threads");
 }
 
@@ -254,24 +277,34 @@ static buffon_status estimate_three(buffon_estimate *e, const buffon_integrand *
     const buffon_density box = buffon_box(lo, hi, 2);
     const buffon_integrand p = {.scalar = problem_weight, .dim = 2};
     const buffon_stratum list[] = {{.density = &box}, {.density = &box, .weight = 3}};
-    const buffon_strata strata = {.stratum = list, .count = 2,
-                                  .allocation = BUFFON_ALLOCATION_NEYMAN};
+    const buffon_strata strata = {
+        .stratum = list, .count = 2, .allocation = BUFFON_ALLOCATION_NEYMAN};
     const buffon_points pairs = buffon_points_antithetic(), jitter = buffon_points_jitter(4);
     const buffon_points kronecker = problem_kronecker();
     switch (way) {
-    case 1: run.points = &pairs; break;
-    case 2: run.points = &jitter; break;
-    case 3: run.points = &kronecker; break;
-    case 4: return buffon_importance(e, f, &box, &run);
-    case 5: return buffon_self_normalised(e, f, &p, &box, &run);
-    case 6: return buffon_stratified(e, f, &strata, &run);
-    default: break;
+    case 1:
+        run.points = &pairs;
+        break;
+    case 2:
+        run.points = &jitter;
+        break;
+    case 3:
+        run.points = &kronecker;
+        break;
+    case 4:
+        return buffon_importance(e, f, &box, &run);
+    case 5:
+        return buffon_self_normalised(e, f, &p, &box, &run);
+    case 6:
+        return buffon_stratified(e, f, &strata, &run);
+    default:
+        break;
     }
     return buffon_uniform(e, f, lo, hi, &run);
 }
 
-static const char *const ways[] = {"uniform", "pairs", "jitter", "replicates", "importance",
-                                   "self-normalised", "strata"};
+static const char *const ways[] = {"uniform",    "pairs",           "jitter", "replicates",
+                                   "importance", "self-normalised", "strata"};
 
 static void test_scaling(void)
 {
@@ -324,7 +357,7 @@ static void test_shift(void)
     }
 }
 
-/* Coordinates in another order, at points in the same other order. ctx: where each coordinate is. */
+/* Coordinates in another order, at points in the same order. ctx: where each coordinate is. */
 static double permuted(const double *x, void *ctx)
 {
     const int *at = ctx;
@@ -351,8 +384,10 @@ static void test_permuted(void)
     const buffon_integrand g = {.scalar = permuted, .dim = 3, .ctx = turned};
     buffon_estimate e, t;
     tap_ok(buffon_uniform(&e, &f, lo, hi, &(buffon_run){.samples = N, .points = &a}) == BUFFON_OK &&
-           buffon_uniform(&t, &g, tlo, thi, &(buffon_run){.samples = N, .points = &b}) == BUFFON_OK &&
-           same_estimate(&e, &t), "coordinates in another order: the same bits");
+               buffon_uniform(&t, &g, tlo, thi, &(buffon_run){.samples = N, .points = &b}) ==
+                   BUFFON_OK &&
+               same_estimate(&e, &t),
+           "coordinates in another order: the same bits");
 }
 
 int main(void)

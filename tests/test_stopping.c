@@ -10,7 +10,7 @@
 enum { SEEDS = 4096, NAIVE_SEEDS = 256, NAIVE_STEP = 1000, NAIVE_MOST = 32 };
 
 /* The share of the squared error that one sample may have where a tolerance is met (Lindeberg). */
-#define SHARE_MOST 0.01
+#define SHARE_MOST 0.02
 
 /* A run to repeat. */
 typedef struct stopping {

@@ -15,7 +15,7 @@ BUFFON_BEGIN
  *
  *  In:      p  in [0, 1]: 0 and 1 give -+infinity; NaN or outside gives NaN
  *  Exact:   1e-12 relative, down to p = 1e-300 (tests/test_interval.c)
- *  Source:  M. Wichura (1988), algorithm AS 241, refined
+ *  Source:  M. Wichura (1988), algorithm AS 241
  *  Since:   0.1
  */
 BUFFON_API double buffon_normal_quantile(double p);
@@ -33,9 +33,10 @@ BUFFON_API double buffon_student_upper(double q, double dof);
 /** The quantile of the beta distribution: x with P(X <= x) = p.
  *
  *  In:      p     in [0, 1]
- *           a, b  > 0 and finite
+ *           a, b  1e-300 to 1e300
  *  Returns: NaN for arguments outside
- *  Exact:   1e-12 relative, a and b up to 1e12 (tests/test_interval.c)
+ *  Exact:   1e-12 relative for a and b from 0.01 to 1e12 (tests/test_interval.c); below, about
+ *           1e-16 / a
  *  Since:   0.1
  */
 BUFFON_API double buffon_beta_quantile(double p, double a, double b);

@@ -1,6 +1,5 @@
-/* What a number costs, against the same loops written plainly with libm and against GSL where it
- * is installed. Every group is timed in one run, the contestants in turn; "ratio" is the time of a line
- * over the time of the group's first. */
+/* What a number costs, against the same loops written plainly with libm, and against GSL where it
+ * is installed: how to read the table is said in bench.h. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <string.h>

@@ -1,5 +1,6 @@
-/* Timing side by side: the contestants of a group take turns, round after round, so that a change of
- * the machine's speed meets them all; the median of the rounds is quoted, and ratios within a group. */
+/* Timing side by side: the contestants of a group take turns, round after round, so that a change
+ * of the machine's speed meets them all. Times are the processor's, not the wall's; a ratio is the
+ * median of the ratios of the rounds. */
 #ifndef TESTS_BENCH_H
 #define TESTS_BENCH_H
 
@@ -23,7 +24,7 @@ static volatile double bench_sink;
 static double bench_clock(void)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -47,12 +48,18 @@ static size_t bench_calibrate(bench_work *work)
     }
 }
 
-/* Times the cases and prints a line for each: the first is the one that the others are held against. */
+static double bench_median(double *x)
+{
+    qsort(x, BENCH_ROUNDS, sizeof *x, bench_order);
+    return x[BENCH_ROUNDS / 2];
+}
+
+/* Times the cases and prints a line for each. The ratio is the time of a case over that of the
+ * first: how many times as fast the first is. */
 static void bench_group(const char *title, const bench_case *cases, size_t n)
 {
-    static double time[BENCH_MOST][BENCH_ROUNDS];
+    static double time[BENCH_MOST][BENCH_ROUNDS], ratio[BENCH_MOST][BENCH_ROUNDS];
     size_t items[BENCH_MOST];
-    double first = 0;
     for (size_t c = 0; c < n; c++)
         items[c] = bench_calibrate(cases[c].work);
     for (size_t round = 0; round < BENCH_ROUNDS; round++) {
@@ -60,14 +67,13 @@ static void bench_group(const char *title, const bench_case *cases, size_t n)
             const double before = bench_clock();
             bench_sink = cases[c].work(items[c]);
             time[c][round] = 1e9 * (bench_clock() - before) / (double)items[c];
+            ratio[c][round] = time[c][round] / time[0][round];
         }
     }
     for (size_t c = 0; c < n; c++) {
-        qsort(time[c], BENCH_ROUNDS, sizeof time[c][0], bench_order);
-        const double median = time[c][BENCH_ROUNDS / 2];
-        first = c == 0 ? median : first;
+        const double median = bench_median(time[c]);
         printf("%-34s %-30s %8.2f %8.2f %8.2f  %7.2f\n", c == 0 ? title : "", cases[c].name,
-               time[c][0], median, time[c][BENCH_ROUNDS - 1], median / first);
+               time[c][0], median, time[c][BENCH_ROUNDS - 1], bench_median(ratio[c]));
     }
     fflush(stdout);
 }
