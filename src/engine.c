@@ -60,7 +60,8 @@ static buffon_status engine_allocate(engine *e)
         longest = n > longest ? n : longest;
     }
     const size_t n = (size_t)(longest < e->plan.shape.block ? longest : e->plan.shape.block);
-    e->workers = blocks < e->plan.run.threads ? (size_t)blocks : e->plan.run.threads;
+    const size_t most = blocks < ENGINE_ROUND ? (size_t)blocks : ENGINE_ROUND;
+    e->workers = most < e->plan.run.threads ? most : e->plan.run.threads;
     /* The first round shows how long a block takes, if anybody is waiting to hear. */
     e->round = e->plan.run.progress != NULL ? e->workers : ENGINE_ROUND;
     e->task = calloc(ENGINE_ROUND, sizeof *e->task);

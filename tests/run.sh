@@ -3,9 +3,9 @@
 #
 #     tests/run.sh [-j jobs] [-w 'command to run each under'] -o directory program...
 #
-# Each leaves directory/<name>.tap and .err. A program that crashes, runs for ten minutes, or prints
-# no plan or another number of checks than planned counts as one more failure. The last line is
-# `N passed, N failed`; skipped checks are named above it and counted in neither.
+# Each leaves directory/<name>.tap and .err. A program that crashes, runs for ten minutes, checks
+# nothing, or prints no plan or another number of checks than planned counts as one more failure. The
+# last line is `N passed, N failed`; skipped checks are named above it and counted in neither.
 set -u
 
 # run_one directory wrapper program
@@ -31,6 +31,7 @@ run_one()
             else if (code > 128) fail("it was ended by signal " code - 128)
             else if (code != 0 && !failed) fail("it returned " code " with no failed check")
             if (!planned) fail("it printed no plan")
+            else if (plan == 0) fail("it checked nothing")
             else if (plan != count) fail("it planned " plan " checks and printed " count + 0)
             printf "%-6s %-24s %5d checks %4d s\n%s", failed ? "FAILED" : "ok", name, count,
                    seconds, detail

@@ -282,6 +282,25 @@ static int count_calls(const buffon_progress *progress, void *ctx)
     return 1;
 }
 
+/* More threads than a round has blocks. */
+static void test_crowd(void)
+{
+    const problem *p = &problems[0];
+    buffon_estimate e, alone;
+    int calls = 0;
+    clock_set(1, 1);
+    buffon_run run = {.samples = 40000, .block = 16};
+    const buffon_status status = p->solve(&alone, run);
+    run.threads = UINT32_MAX;
+    run.executor = run_backward;
+    run.progress = count_calls;
+    run.progress_ctx = &calls;
+    tap_ok(p->solve(&e, run) == BUFFON_W_CANCELLED && calls == 1 && e.samples == 16 * 1024,
+           "2^32 tasks are no more than a round has blocks");
+    run.progress = NULL;
+    tap_ok(p->solve(&e, run) == status && same_estimate(&e, &alone), "and change no bit");
+}
+
 /* Cancelling where nothing is left, or an error, is no cancel. */
 static void test_edges(void)
 {
@@ -327,6 +346,7 @@ int main(void)
     run.executor = run_backward;
     test_watch(&problems[8], run, 1, ", executor");
     test_rounds();
+    test_crowd();
     test_edges();
     return tap_done();
 }

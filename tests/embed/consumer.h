@@ -1,5 +1,5 @@
-/* What every consumer of the installed library prints: the bits of some results. Included by a C and
- * a C++ program, so that headers and library meet in both languages and under other flags.
+/* What every consumer of the installed library prints: the bits of some results. Included by a C
+ * and a C++ program, so that headers and library meet in both languages and under other flags.
  */
 #ifndef TESTS_EMBED_CONSUMER_H
 #define TESTS_EMBED_CONSUMER_H
