@@ -38,6 +38,9 @@ FUZZ_SECONDS ?= 60
 PKG_CONFIG ?= pkg-config
 
 export BUILD CC CXX CFLAGS CPPFLAGS LDFLAGS WARNINGS MAKE PKG_CONFIG JOBS
+# Tests ask for more memory than there is: under a sanitizer that is to fail as it does without.
+export ASAN_OPTIONS ?= allocator_may_return_null=1
+export TSAN_OPTIONS ?= allocator_may_return_null=1
 
 # ---- what always holds --------------------------------------------------------------------------
 

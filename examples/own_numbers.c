@@ -4,7 +4,6 @@
  * buffon_stats keeps sums as whole numbers that lose nothing. So samples gathered apart, in any
  * order, merge to the same bits as one. */
 #include <stdio.h>
-#include <string.h>
 
 #include <buffon/buffon.h>
 
@@ -22,8 +21,7 @@ static double play(buffon_rng *rng)
 
 int main(void)
 {
-    buffon_stats table[TABLES], all = {0}, merged = {0};
-    memset(table, 0, sizeof table);
+    buffon_stats table[TABLES] = {{0}}, all = {0}, merged = {0};
     for (size_t t = 0; t < TABLES; t++) {
         buffon_rng rng = buffon_rng_make(6, t); /* each table has a stream of its own */
         for (size_t i = 0; i < GAMES / TABLES; i++) {

@@ -220,7 +220,10 @@ buffon_status buffon_partial_load(buffon_partial *partial, const void *bytes, si
     partial_word(&end, &checksum);
     if (checksum != partial_checksum(bytes, 8 * ((size_t)head[2] - 1)))
         return BUFFON_E_CORRUPT;
-    if (head[2] > PARTIAL_HEAD + 1) {
+    if (head[2] == PARTIAL_HEAD + 1) {
+        if (memcmp(&shape, &(buffon_priv_shape){0}, sizeof shape) != 0)
+            return BUFFON_E_CORRUPT;
+    } else {
         if (!partial_plausible(&shape) || partial_count(&shape) != head[2])
             return BUFFON_E_CORRUPT;
         record = buffon_priv_record_make(&shape);

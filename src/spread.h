@@ -1,5 +1,5 @@
-/* From the exact sums of a record to means, and to what their errors are by the design of the points:
- * independent values, pairs, stratified pairs, replicates.
+/* From the exact sums of a record to means, and to what their errors are by the design of the
+ * points: independent values, pairs, stratified pairs, replicates.
  */
 #ifndef BUFFON_SPREAD_H
 #define BUFFON_SPREAD_H

@@ -68,7 +68,7 @@ tap_empty "$(for target in $(names '`make [a-z-]+' | cut -d ' ' -f 2); do
 done)" "the targets that it names are there"
 
 tap_empty "$(for file in README.md docs/*.md; do
-    grep -oE '\]\([^)#:]+' "$file" | cut -c 3- | while read -r link; do
+    grep -oE '\]\([^)#: ]+\)' "$file" | tr -d ']()' | while read -r link; do
         test -e "$(dirname "$file")/$link" || echo "$file: $link"
     done
 done)" "links between documents lead somewhere"

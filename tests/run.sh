@@ -4,8 +4,8 @@
 #     tests/run.sh [-j jobs] [-w 'command to run each under'] -o directory program...
 #
 # Each leaves directory/<name>.tap and .err. A program that crashes, runs for ten minutes, checks
-# nothing, or prints no plan or another number of checks than planned counts as one more failure. The
-# last line is `N passed, N failed`; skipped checks are named above it and counted in neither.
+# nothing, or prints no plan or another number of checks than planned counts as one more failure.
+# The last line is `N passed, N failed`; skipped checks are named above it and counted in neither.
 set -u
 
 # run_one directory wrapper program

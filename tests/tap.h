@@ -1,5 +1,6 @@
 /* A test program prints TAP: one line `ok N - what` or `not ok N - what` for each check, and the
- * plan at the end. Include it in the one file of a test program; close main with `return tap_done();`. */
+ * plan at the end. Include it in the one file of a test program; close main with
+ * `return tap_done();`. */
 #ifndef TESTS_TAP_H
 #define TESTS_TAP_H
 

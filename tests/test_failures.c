@@ -1,6 +1,11 @@
 /* A run that meets a bad point says which: the lowest index, whoever computes; and buffon_sample_at
  * gives that point back. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <sched.h>
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "problems.h"
 #include "tap.h"
@@ -177,6 +182,46 @@ static void test_stopped(void)
         good &= is_failure(&e, 1, BUFFON_E_STOPPED, 2048, 0);
     }
     tap_ok(good, "a batch that asks to stop: the first point of the first such block");
+}
+
+/* Two threads fail, the one with the lower index after the other: it waits until it sees the other's
+ * block, or a second where there is no other thread. */
+typedef struct race {
+    double first, second; /* x of the traps */
+    atomic_int seen;
+} race;
+
+static double race_scalar(const double *x, void *ctx)
+{
+    race *r = ctx;
+    struct timespec start, now;
+    if (x[0] == r->second)
+        atomic_store(&r->seen, 1);
+    if (x[0] != r->first)
+        return x[0] == r->second ? NAN : 1;
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    do {
+        sched_yield();
+        clock_gettime(CLOCK_MONOTONIC, &now);
+    } while (!atomic_load(&r->seen) && now.tv_sec <= start.tv_sec + 1);
+    for (int i = 0; i < 1000; i++) /* until the other has ended */
+        sched_yield();
+    return NAN;
+}
+
+static void test_race(void)
+{
+    const double lo = 0, hi = 1;
+    const buffon_density box = buffon_box(&lo, &hi, 1);
+    race r = {0, 0, 0};
+    const buffon_integrand f = {.scalar = race_scalar, .dim = 1, .ctx = &r};
+    const buffon_run run = {.samples = 40000, .seed = 3, .threads = 2};
+    buffon_estimate e;
+    if (buffon_sample_at(&r.first, &box, 1000, &run) != BUFFON_OK ||
+        buffon_sample_at(&r.second, &box, 1024, &run) != BUFFON_OK)
+        exit(1);
+    tap_ok(buffon_uniform(&e, &f, &lo, &hi, &run) == BUFFON_E_NONFINITE && e.bad_index == 1000,
+           "of two failures the one that came later has the lower index, and counts");
 }
 
 /* ---- rejection ---- */
@@ -400,6 +445,7 @@ int main(void)
 {
     test_uniform();
     test_stopped();
+    test_race();
     test_bound();
     test_pdf();
     test_negative_weight();

@@ -426,6 +426,26 @@ static void test_gap(void)
     buffon_partial_free(&all);
 }
 
+/* Two blocks and the short last one are as many points as three sweeps, but are not three sweeps. */
+static void test_gap_before_tail(void)
+{
+    static const uint32_t have[] = {0, 1, 5};
+    const buffon_points jitter = buffon_points_jitter(384);
+    variation v = {.run = {.samples = 5376, .parts = 6, .points = &jitter}, .hi = 1};
+    buffon_partial all = {0}, part = {0};
+    buffon_estimate e;
+    int good = 1;
+    for (int i = 0; i < 3; i++) {
+        v.run.part = have[i];
+        good &= vary(&part, &v) == BUFFON_W_INCOMPLETE;
+        good &= buffon_partial_merge(&all, &part) == BUFFON_OK;
+        buffon_partial_free(&part);
+    }
+    good &= buffon_partial_estimate(&e, &all, 0) == BUFFON_W_INCOMPLETE && e.samples == 2304;
+    tap_ok(good && e.std_error > 1e-3, "a gap before the short last block too (%.1e)", e.std_error);
+    buffon_partial_free(&all);
+}
+
 static void test_nulls(void)
 {
     buffon_partial partial = {0};
@@ -485,6 +505,7 @@ int main(void)
     test_samples();
     test_overlap();
     test_gap();
+    test_gap_before_tail();
     test_nulls();
     test_confidence();
     return tap_done();

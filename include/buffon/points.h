@@ -77,7 +77,7 @@ BUFFON_API buffon_points buffon_points_antithetic(void);
  *  In:      k  cells along each coordinate, >= 1; a dimension with k^dim > 2^40 is refused
  *  Law:     the cells of each sweep are visited in a random order, so a run that ends within a
  *           sweep is unbiased too; its error then counts the spread between cells. The interval
- *           takes the cells to vary alike: where few of many carry the variance it is a little short
+ *           takes the cells to vary alike: where few carry the variance it is a little short
  *  Source:  S. Haber (1967), A modified Monte-Carlo quadrature II
  *  Since:   0.1
  */
