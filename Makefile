@@ -204,7 +204,8 @@ coverage: ## lines of the library that the tests reach
 	@$(MAKE) --no-print-directory unit BUILD=$(BUILD)/coverage \
 	  CFLAGS='-O0 -g --coverage -fprofile-update=atomic'
 	@gcov -n -o $(BUILD)/coverage/verify $(sources) | \
-	  awk -F"[':%]" '/^File/ { file = $$2 } /^Lines/ && file ~ /^src/ { print $$2 "%  " file }'
+	  awk -F"[':%]" '/^File/ { file = $$2 } \
+	    /^Lines/ && file ~ /^src/ { print $$2 "%  " file; file = "" }'
 
 # Each target is also one of the tests, where it makes its own bytes; the good ones are the seeds.
 fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets, FUZZ_SECONDS each, by libFuzzer

@@ -69,7 +69,7 @@ static int live(const char *name, checkpoint *c, int calls)
     const buffon_status s = buffon_uniform(
         &e, &(buffon_integrand){.scalar = f, .dim = 1}, &lo, &hi,
         &(buffon_run){
-            .samples = 1u << 26, .seed = 7, .partial = &p, .progress = keep, .progress_ctx = c});
+            .samples = 1u << 25, .seed = 7, .partial = &p, .progress = keep, .progress_ctx = c});
     buffon_partial_free(&p);
     if (s < 0) {
         fprintf(stderr, "%s\n", buffon_status_string(s));

@@ -16,8 +16,7 @@ uint64_t buffon_priv_density_identity(uint64_t mix, const buffon_density *g);
  * that they failed. */
 buffon_status buffon_priv_density_result(int result);
 
-/* Whether g can be had, parts of products included. A user's density without the operation `pdf`
- * may still give it along with its samples. */
+/* Whether g can be had: it has the operation `pdf`, and so have the parts of a product. */
 int buffon_priv_density_has_pdf(const buffon_density *g);
 
 /* Mixes n numbers. */

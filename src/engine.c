@@ -369,6 +369,21 @@ buffon_status buffon_priv_refuse(buffon_estimate *out, const buffon_integrand *f
     return status;
 }
 
+buffon_status buffon_priv_engine_check(const buffon_priv_problem *problem, const buffon_run *run)
+{
+    buffon_status status = buffon_priv_problem_check(problem, run);
+    engine e = {.out = NULL};
+    int fresh = 0;
+    if (status != BUFFON_OK)
+        return status;
+    status = buffon_priv_plan_make(&e.plan, problem, run);
+    if (status == BUFFON_OK)
+        status = buffon_priv_plan_attach(&e.record, &fresh, &e.plan);
+    e.own_record = fresh;
+    engine_free(&e);
+    return status;
+}
+
 buffon_status buffon_priv_engine_run(buffon_estimate *out, const buffon_priv_problem *problem,
                                      const buffon_run *run)
 {

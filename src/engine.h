@@ -29,6 +29,7 @@ typedef struct buffon_priv_stratum {
     const buffon_integrand *f;
     double weight; /* factor of its estimate */
     double share;  /* of the samples, > 0 */
+    double asked;  /* the share before any reallocation: what tells runs apart */
 } buffon_priv_stratum;
 
 /** A problem: all that makes one estimator differ from another. */
@@ -49,6 +50,9 @@ typedef struct buffon_priv_problem {
     buffon_status (*weigh)(double *y, size_t *bad, const buffon_priv_batch *batch,
                            const struct buffon_priv_problem *problem);
 } buffon_priv_problem;
+
+/** What a run would refuse before it draws anything, but for lack of memory. */
+buffon_status buffon_priv_engine_check(const buffon_priv_problem *problem, const buffon_run *run);
 
 /** Runs a problem and fills out[components of the first stratum's integrand], whatever happens. */
 buffon_status buffon_priv_engine_run(buffon_estimate *out, const buffon_priv_problem *problem,

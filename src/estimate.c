@@ -132,7 +132,7 @@ static void estimate_doubts(buffon_estimate *out, const buffon_priv_record *reco
         doubts |= BUFFON_DOUBT(BUFFON_W_NONFINITE);
     if (shape->design == BUFFON_DESIGN_NONE)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_ERROR);
-    else if (out->std_error != out->std_error || out->std_error == INFINITY)
+    else if (out->std_error == INFINITY)
         doubts |= BUFFON_DOUBT(BUFFON_W_FEW);
     if (out->std_error == 0 && !shape->constant)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_SPREAD);
@@ -187,6 +187,11 @@ static void estimate_component(buffon_estimate *out, const buffon_priv_record *r
     out->value = buffon_priv_wide_to_double(buffon_priv_spread_value(record, k));
     out->std_error = buffon_priv_wide_to_double(buffon_priv_wide_sqrt(spread.square));
     out->variance = estimate_variance(record, k, spread.square, out->samples);
+    /* What is not known is the same NaN on every machine. */
+    if (out->std_error != out->std_error)
+        out->std_error = shape->design == BUFFON_DESIGN_NONE ? NAN : INFINITY;
+    if (out->variance != out->variance)
+        out->variance = NAN;
     out->ess = (double)out->samples;
     if (shape->kind == BUFFON_PRIV_HITS)
         out->acceptance = buffon_priv_wide_to_double(buffon_priv_spread_mean(record, 0, k));

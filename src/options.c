@@ -155,7 +155,7 @@ uint64_t buffon_priv_problem_identity(const buffon_priv_problem *problem, const 
         const buffon_priv_stratum *stratum = &problem->stratum[s];
         mix = buffon_priv_density_identity(mix, stratum->g);
         mix = buffon_priv_mix_double(mix, stratum->weight);
-        mix = buffon_priv_mix_double(mix, stratum->share);
+        mix = buffon_priv_mix_double(mix, stratum->asked);
     }
     mix = buffon_priv_mix(mix, problem->extra);
     mix = buffon_priv_mix_double(mix, problem->param);

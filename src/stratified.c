@@ -7,7 +7,6 @@
 #include <buffon/stratified.h>
 
 #include "engine.h"
-#include "options.h"
 #include "record.h"
 #include "stats_priv.h"
 #include "weigh.h"
@@ -56,7 +55,8 @@ static buffon_priv_stratum *stratified_list(const buffon_integrand *f, const buf
         list[s] = (buffon_priv_stratum){.g = stratum->density,
                                         .f = stratum->f != NULL ? stratum->f : f,
                                         .weight = stratified_or_one(stratum->weight),
-                                        .share = stratified_or_one(stratum->share)};
+                                        .share = stratified_or_one(stratum->share),
+                                        .asked = stratified_or_one(stratum->share)};
     }
     return list;
 }
@@ -100,13 +100,19 @@ static void stratified_reallocate(buffon_priv_stratum *list, const buffon_priv_r
         list[s].share /= STRATIFIED_FLOOR;
 }
 
+/* Points of the pilot in each stratum. */
+static uint64_t stratified_pilot_points(const buffon_strata *strata)
+{
+    return strata->pilot > 0 ? strata->pilot : 1024;
+}
+
 /* Runs the pilot, with numbers of its own, and reallocates. Its size does not depend on the samples
  * of the run, so a longer run keeps the shares of a shorter one. */
 static buffon_status stratified_pilot(buffon_estimate *out, buffon_priv_problem *problem,
                                       buffon_priv_stratum *list, const buffon_strata *strata,
                                       const buffon_run *run)
 {
-    const uint64_t each = strata->pilot > 0 ? strata->pilot : 1024;
+    const uint64_t each = stratified_pilot_points(strata);
     buffon_priv_stratum *equal = malloc(strata->count * sizeof *equal);
     buffon_priv_problem pilot = *problem;
     buffon_partial partial = {{0}, NULL};
@@ -158,7 +164,9 @@ buffon_status buffon_stratified(buffon_estimate *out, const buffon_integrand *f,
                                    .pdf = 1,
                                    .scale_m = 1,
                                    .weigh = buffon_priv_weigh_ratio};
-    status = buffon_priv_problem_check(&problem, run);
+    if (strata->allocation == BUFFON_ALLOCATION_NEYMAN)
+        problem.param = (double)stratified_pilot_points(strata);
+    status = buffon_priv_engine_check(&problem, run); /* before the pilot draws anything */
     if (status != BUFFON_OK)
         status = buffon_priv_refuse(out, first, status);
     else if (strata->allocation == BUFFON_ALLOCATION_NEYMAN)

@@ -184,8 +184,8 @@ static void test_stopped(void)
     tap_ok(good, "a batch that asks to stop: the first point of the first such block");
 }
 
-/* Two threads fail, the one with the lower index after the other: it waits until it sees the other's
- * block, or a second where there is no other thread. */
+/* Two threads fail, the one with the lower index after the other: it waits until it sees the
+ * other's block, or a second where there is no other thread. */
 typedef struct race {
     double first, second; /* x of the traps */
     atomic_int seen;
@@ -414,6 +414,31 @@ static void test_strata(void)
            "the same with a pilot, whose points are others");
 }
 
+/* The pilot has points of its own: a trap at the first of the run is none for it. And a pilot
+ * that is stopped names no point. */
+static void test_pilot(void)
+{
+    const buffon_density box = buffon_segment(0, 1);
+    const buffon_stratum list[] = {{.density = &box}, {.density = &box}};
+    const buffon_strata strata = {
+        .stratum = list, .count = 2, .allocation = BUFFON_ALLOCATION_NEYMAN, .pilot = 100};
+    trap t = {.dim = 1, .count = 1};
+    const buffon_integrand f = {.batch = trap_stop, .dim = 1, .ctx = &t};
+    const buffon_run run = {.samples = 4000, .seed = 12, .block = 16};
+    buffon_estimate e;
+    if (buffon_stratum_sample_at(t.x[0], &strata, 1, 20, &run) != BUFFON_OK)
+        exit(1);
+    tap_ok(buffon_stratified(&e, &f, &strata, &run) == BUFFON_E_STOPPED &&
+               is_failure(&e, 1, BUFFON_E_STOPPED, 16, 1),
+           "a pilot does not meet the points of the run");
+    const buffon_rng_key key = {
+        .seed = 12, .purpose = BUFFON_PURPOSE_PILOT, .replicate = 0, .stratum = 1};
+    buffon_rng_uniforms_at(t.x[0], 1, &key, 0, 20);
+    tap_ok(buffon_stratified(&e, &f, &strata, &run) == BUFFON_E_STOPPED &&
+               is_failure(&e, 1, BUFFON_E_STOPPED, UINT64_MAX, 0),
+           "a failure of the pilot names no point of the run");
+}
+
 /* ---- what is left ---- */
 
 /* A run that fails late leaves what was done; when the cause is mended it goes on from there. */
@@ -450,6 +475,7 @@ int main(void)
     test_pdf();
     test_negative_weight();
     test_strata();
+    test_pilot();
     test_resume();
     return tap_done();
 }

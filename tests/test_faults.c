@@ -213,6 +213,8 @@ static void test_partial_calls(void)
     }
     tap_ok(most > 3 && merge, "merge: %ld allocations", most);
     tap_ok(load, "load: what was there stays");
+    load = buffon_partial_load(&b, part[1].bytes, part[1].size) == BUFFON_OK;
+    tap_ok(load && live == before, "loading frees what it replaces");
     arm(1, 1);
     tap_ok(buffon_partial_merge(&a, &b) == BUFFON_OK, "merging into a partial needs no memory");
     tap_ok(buffon_partial_estimate(e, &a, 0) == BUFFON_OK, "nor does estimating");

@@ -284,29 +284,29 @@ static void test_hits(void)
     const buffon_integrand f = {.scalar = parabola, .dim = 1};
     const double lo = 0, hi = 2;
     const buffon_points pairs = buffon_points_antithetic();
-    buffon_run run = {.samples = 500, .seed = 8, .confidence = 0.99};
+    buffon_run run = {.samples = 2000, .seed = 8, .confidence = 0.99};
     uint64_t hits = 0;
     double under[] = {0, 0}, over[] = {2, 4.5}, x[2], a, b;
     const buffon_density box = buffon_box(under, over, 2);
     buffon_estimate e;
-    for (uint64_t i = 0; i < 500; i++) {
+    for (uint64_t i = 0; i < 2000; i++) {
         if (buffon_sample_at(x, &box, i, &run) != BUFFON_OK)
             exit(1);
         hits += x[1] < x[0] * x[0];
     }
-    const real p = (real)hits / 500;
+    const real p = (real)hits / 2000;
     const buffon_status status = buffon_rejection(&e, &f, &lo, &hi, 4.5, &run);
-    tap_ok(status == BUFFON_OK && near_to(e.acceptance, p, 1e-13) &&
-               near_to(e.value, 9 * p, 1e-13) &&
-               near_to(e.std_error, 9 * sqrtl(p * (1 - p) / 499), 1e-13) &&
-               near_to(e.variance, 81 * p * (1 - p) * 500 / 499, 1e-13) && e.min == 0 && e.max == 9,
-           "hits: %llu of 500", (unsigned long long)hits);
-    tap_ok(buffon_interval_clopper_pearson(&a, &b, hits, 500, 0.99) == BUFFON_OK &&
+    tap_ok(
+        status == BUFFON_OK && near_to(e.acceptance, p, 1e-13) && near_to(e.value, 9 * p, 1e-13) &&
+            near_to(e.std_error, 9 * sqrtl(p * (1 - p) / 1999), 1e-13) &&
+            near_to(e.variance, 81 * p * (1 - p) * 2000 / 1999, 1e-13) && e.min == 0 && e.max == 9,
+        "hits: %llu of 2000", (unsigned long long)hits);
+    tap_ok(buffon_interval_clopper_pearson(&a, &b, hits, 2000, 0.99) == BUFFON_OK &&
                e.interval == BUFFON_INTERVAL_CLOPPER_PEARSON && near_to(e.lo, 9 * a, 1e-12) &&
                near_to(e.hi, 9 * b, 1e-12),
            "their interval is Clopper and Pearson's");
     run.points = &pairs;
-    tap_ok(buffon_rejection(&e, &f, &lo, &hi, 4.5, &run) == BUFFON_OK && interval_fits(&e, 249, 1),
+    tap_ok(buffon_rejection(&e, &f, &lo, &hi, 4.5, &run) == BUFFON_OK && interval_fits(&e, 999, 1),
            "of pairs, which are not independent, Student's");
 }
 
@@ -317,10 +317,10 @@ static void test_looks(void)
 {
     const buffon_integrand f = {.scalar = parabola, .dim = 1};
     const double lo = 0, hi = 2;
-    buffon_run run = {.samples = 100000, .seed = 8, .rel_tol = 0.02};
+    buffon_run run = {.samples = 100000, .seed = 8, .rel_tol = 0.02, .confidence = 0.96};
     buffon_estimate e, fixed;
     tap_ok(buffon_uniform(&e, &f, &lo, &hi, &run) == BUFFON_OK && e.looks == 5 &&
-               e.samples == 16384 && interval_fits(&e, 16383, 5),
+               e.confidence == 0.96 && e.samples == 16384 && interval_fits(&e, 16383, 5),
            "five looks: alpha / 5 at each");
     run.samples = 16384;
     run.rel_tol = 0;

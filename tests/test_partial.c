@@ -104,6 +104,21 @@ static uint64_t word_at(const unsigned char *bytes, size_t word)
     return value;
 }
 
+static void word_put(unsigned char *bytes, size_t word, uint64_t value)
+{
+    for (unsigned i = 0; i < 8; i++)
+        bytes[8 * word + i] = (unsigned char)(value >> (8 * i));
+}
+
+/* FNV-1a. */
+static uint64_t checksum(const unsigned char *bytes, size_t n)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (size_t i = 0; i < n; i++)
+        hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
 static double double_at(const unsigned char *bytes, size_t word)
 {
     const uint64_t bits = word_at(bytes, word);
@@ -157,10 +172,7 @@ static void test_layout(void)
     const size_t top = squares + BUFFON_STATS_SQUARES;
     tap_ok(double_at(b, top) == 3 && double_at(b, top + 3) == 2.5 && double_at(b, top + 4) == 0,
            "the largest magnitudes");
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (size_t i = 0; i < size - 8; i++)
-        hash = (hash ^ b[i]) * UINT64_C(0x100000001b3);
-    tap_ok(word_at(b, END) == hash, "the checksum is FNV-1a of what precedes it");
+    tap_ok(word_at(b, END) == checksum(b, size - 8), "the checksum is FNV-1a of what precedes it");
     free(b);
     buffon_partial_free(&partial);
 }
@@ -206,6 +218,63 @@ static void test_damage(void)
     buffon_partial_free(&kept);
 }
 
+/* Bytes that are whole but no run could have left: a word changed, the checksum made anew. */
+static int forged(unsigned char *bytes, size_t size, size_t word, uint64_t value)
+{
+    buffon_partial partial = {0};
+    const uint64_t was = word_at(bytes, word), sum = word_at(bytes, size / 8 - 1);
+    word_put(bytes, word, value);
+    word_put(bytes, size / 8 - 1, checksum(bytes, size - 8));
+    const buffon_status status = buffon_partial_load(&partial, bytes, size);
+    buffon_partial_free(&partial);
+    word_put(bytes, word, was);
+    word_put(bytes, size / 8 - 1, sum);
+    return status == BUFFON_E_CORRUPT;
+}
+
+/* One cell in three parts: 4 of its 5 blocks and the short one are there. */
+static void test_forged(void)
+{
+    static const struct {
+        const char *name;
+        size_t word;
+        uint64_t value;
+    } shape[] = {{"kind", 4, 3},           {"design", 5, 5},
+                 {"no components", 6, 0},  {"too many components", 6, (UINT64_C(1) << 20) + 1},
+                 {"outputs", 7, 2},        {"covariance", 8, 2},
+                 {"constant", 9, 2},       {"no strata", 10, 0},
+                 {"no replicates", 11, 0}, {"too many replicates", 11, 257},
+                 {"block", 12, 48},        {"round", 13, 0},
+                 {"no parts", 16, 0},      {"more parts", 16, 4},
+                 {"no looks", 17, 0},      {"too many looks", 17, 65}};
+    enum { TARGET = 3 + 15 + 1, DONE = TARGET + 1, WHOLE = DONE + 3 };
+    enum { TAIL = WHOLE + 4 + BUFFON_STATS_SUM + BUFFON_STATS_SQUARES + BUFFON_STATS_TOP };
+    buffon_partial partial = {0}, part = {0};
+    size_t size;
+    buffon_run run = {.samples = 90, .block = 16, .parts = 3, .part = 0};
+    int good = solve(&partial, &problems[0], run) > 0; /* blocks 0 and 3 */
+    run.part = 2;                                      /* blocks 2 and 5, the short one */
+    good &= solve(&part, &problems[0], run) > 0;
+    good &= buffon_partial_merge(&partial, &part) == BUFFON_OK;
+    unsigned char *b = save(&partial, &size);
+    tap_ok(good && word_at(b, TARGET) == 90 && word_at(b, DONE) == 2 && word_at(b, DONE + 1) == 0 &&
+               word_at(b, DONE + 2) == 1 && word_at(b, WHOLE) == 48 && word_at(b, TAIL) == 10,
+           "a partial to forge");
+    for (size_t i = 0; i < sizeof shape / sizeof *shape; i++)
+        tap_ok(forged(b, size, shape[i].word, shape[i].value), "forged: %s", shape[i].name);
+    tap_ok(forged(b, size, DONE, 3) && forged(b, size, DONE, 1) && forged(b, size, DONE + 1, 1) &&
+               forged(b, size, DONE, UINT64_MAX),
+           "forged: blocks that the sums do not hold");
+    tap_ok(forged(b, size, WHOLE, 64) && forged(b, size, WHOLE, 0),
+           "forged: counts of whole blocks");
+    tap_ok(forged(b, size, TAIL, 9) && forged(b, size, TAIL, 11),
+           "forged: count of the short block");
+    tap_ok(forged(b, size, TARGET, 91) && forged(b, size, TARGET, 30), "forged: target");
+    free(b);
+    buffon_partial_free(&partial);
+    buffon_partial_free(&part);
+}
+
 /* ---- merging ---- */
 
 /* Merging must refuse and leave both as they are. */
@@ -234,7 +303,7 @@ static double cube(const double *x, void *ctx)
 /* The run that others are compared with, and all in which they may differ. */
 typedef struct variation {
     buffon_run run;
-    double lo, hi, height;
+    double lo, hi, height, share;
     int estimator, dim;
 } variation;
 
@@ -247,7 +316,7 @@ static buffon_status vary(buffon_partial *partial, const variation *v)
         v->estimator == 4 ? buffon_segment(v->lo, v->hi + 1) : buffon_box(lo, hi, dim);
     const buffon_density disk = buffon_disk(v->hi);
     const buffon_integrand plane = {.scalar = cube, .dim = 2};
-    const buffon_stratum list[] = {{.density = &g, .weight = v->height}};
+    const buffon_stratum list[] = {{.density = &g, .weight = v->height, .share = v->share}};
     const buffon_strata strata = {.stratum = list, .count = 1};
     buffon_run run = v->run;
     buffon_estimate e;
@@ -345,6 +414,8 @@ static void test_mismatch(void)
     v = base, v.estimator = 6;
     w = v, w.height = 2;
     mismatch("weight of a stratum", &v, &w);
+    w = v, w.share = 2;
+    mismatch("share of a stratum", &v, &w);
 }
 
 /* Other samples is not another run: a run goes on. But it does not merge. */
@@ -383,7 +454,14 @@ static void test_overlap(void)
     good &= buffon_partial_merge(&again, &part[2]) == BUFFON_OK;
     tap_ok(good && refuses(&both, &again, BUFFON_E_OVERLAP), "two merged ones that share a part");
     v.run.part = 0;
-    tap_ok(vary(&both, &v) == BUFFON_E_MISMATCH, "a part does not go on from what holds others");
+    good = vary(&both, &v) == BUFFON_E_MISMATCH;
+    v.run.part = 1;
+    tap_ok(good && vary(&both, &v) == BUFFON_E_MISMATCH,
+           "a part does not go on from what holds others");
+    v.run.part = 0;
+    buffon_partial_free(&again);
+    good = vary(&again, &v) >= 0;
+    tap_ok(good && refuses(&part[0], &again, BUFFON_E_OVERLAP), "a part without the short block");
     for (int i = 0; i < 3; i++)
         buffon_partial_free(&part[i]);
     buffon_partial_free(&again);
@@ -392,6 +470,12 @@ static void test_overlap(void)
     v.run = (buffon_run){.samples = 100};
     good = vary(&part[0], &v) >= 0 && vary(&part[1], &v) >= 0;
     tap_ok(good && refuses(&part[0], &part[1], BUFFON_E_OVERLAP), "a short block twice");
+    buffon_partial_free(&part[0]);
+    v.run = (buffon_run){.samples = 100, .parts = 2};
+    good = vary(&part[0], &v) >= 0;
+    v.run.part = 1;
+    tap_ok(good && vary(&part[0], &v) == BUFFON_E_MISMATCH,
+           "a part does not go on from another's short block");
     buffon_partial_free(&part[0]);
     buffon_partial_free(&part[1]);
 }
@@ -426,7 +510,7 @@ static void test_gap(void)
     buffon_partial_free(&all);
 }
 
-/* Two blocks and the short last one are as many points as three sweeps, but are not three sweeps. */
+/* Two blocks and the short last one have the points of three sweeps, but are not three sweeps. */
 static void test_gap_before_tail(void)
 {
     static const uint32_t have[] = {0, 1, 5};
@@ -501,6 +585,7 @@ int main(void)
     test_empty();
     test_layout();
     test_damage();
+    test_forged();
     test_mismatch();
     test_samples();
     test_overlap();

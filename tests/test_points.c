@@ -405,6 +405,50 @@ static void test_hooks(void)
            "pairs must round to even numbers");
 }
 
+/* Sixes for one uniform, fours for two. */
+static uint64_t six_or_four(size_t dim, const buffon_points *self)
+{
+    (void)self;
+    return dim == 1 ? 6 : 4;
+}
+
+static int draw_first(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
+{
+    (void)g;
+    memcpy(x, u, n * sizeof *x);
+    for (size_t i = 0; pdf != NULL && i < n; i++)
+        pdf[i] = 1;
+    return 0;
+}
+
+static int pdf_one(double *pdf, const double *x, size_t n, const buffon_density *g)
+{
+    (void)x;
+    (void)g;
+    for (size_t i = 0; i < n; i++)
+        pdf[i] = 1;
+    return 0;
+}
+
+static void test_rounding(void)
+{
+    static const buffon_density_ops ops = {.sample = draw_first, .pdf = pdf_one};
+    buffon_points points = buffon_points_random();
+    const buffon_density g[] = {{.uniforms = 1, .dim = 1, .ops = &ops},
+                                {.uniforms = 2, .dim = 1, .ops = &ops}};
+    const buffon_stratum list[] = {{.density = &g[0]}, {.density = &g[1]}};
+    const buffon_strata strata = {.stratum = list, .count = 2};
+    const buffon_integrand f = {.scalar = square, .dim = 1};
+    const buffon_run run = {.samples = 26, .points = &points};
+    buffon_estimate e;
+    points.round = six_or_four;
+    tap_ok(buffon_stratified(&e, &f, &strata, &run) >= 0 && e.samples == 48,
+           "strata of different needs: each gets a multiple of all");
+    points.round = NULL;
+    tap_ok(buffon_stratified(&e, &f, &strata, &run) >= 0 && e.samples == 26,
+           "without a need: none");
+}
+
 int main(void)
 {
     static double u[3 * 1000];
@@ -440,5 +484,6 @@ int main(void)
     test_replay_designs();
     test_replicates();
     test_hooks();
+    test_rounding();
     return tap_done();
 }

@@ -89,7 +89,7 @@ static void reload(buffon_partial *partial)
 typedef struct whim {
     buffon_rng rng;
     uint64_t one_in;
-    uint64_t done; /* points at the last call */
+    uint64_t done, total; /* points at the last call */
     int calls, wrong;
 } whim;
 
@@ -99,6 +99,7 @@ static int cancel_at_whim(const buffon_progress *progress, void *ctx)
     w->calls++;
     w->wrong |= progress->done < w->done || progress->done > progress->total;
     w->done = progress->done;
+    w->total = progress->total;
     return buffon_rng_below(&w->rng, w->one_in) == 0;
 }
 
@@ -168,6 +169,7 @@ static void test_cancel_parts(const problem *p, buffon_run run)
             solve(&part[i], p, run);
             cancels++;
         } while (part[i].status == BUFFON_W_CANCELLED && cancels < 10000);
+        good &= w.done == w.total && w.total == part[i].e->samples;
         good &= i == 0 || buffon_partial_merge(&part[0].partial, &part[i].partial) == BUFFON_OK;
         buffon_partial_free(&part[i > 0 ? i : 1].partial);
     }

@@ -301,7 +301,8 @@ static void test_seek(void)
         good &= buffon_rng_tell(&rng) == from;
         good &= buffon_rng_word(&rng) == naive_word(&key, 0, from);
         buffon_rng_fill_words(w, 2200, &rng);
-        good &= w[0] == naive_word(&key, 0, from + 1) && w[1500] == naive_word(&key, 0, from + 1501);
+        good &= w[0] == naive_word(&key, 0, from + 1) &&
+                w[1500] == naive_word(&key, 0, from + 1501);
         good &= w[2199] == reference[2200 - before] && buffon_rng_tell(&rng) == 2201 - before;
     }
     tap_ok(good, "the sequence goes on with word 0 after word 2^64 - 1");

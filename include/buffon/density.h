@@ -52,7 +52,8 @@ typedef struct buffon_density {
     const buffon_density_ops *ops;
     double param[BUFFON_DENSITY_PARAMS]; /* the constructor's */
     const void *data[2];                 /* the constructor's: arrays of the caller */
-    void *ctx;                           /* a user's density's own */
+    void *ctx; /* a user's own. Numbers are better kept in `param`: partial results of different
+                * `param` are told apart, of different `ctx` only by the .id of the run */
     uint64_t reserved[4];                /* must be zero */
 } buffon_density;
 

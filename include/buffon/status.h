@@ -38,7 +38,7 @@
     X(BUFFON_E_UNSUPPORTED, -17, "this density has no pdf, or no inverse")                        \
     X(BUFFON_E_NONFINITE, -32, "the integrand gave a value that is not finite")                   \
     X(BUFFON_E_STOPPED, -33, "the integrand asked to stop")                                       \
-    X(BUFFON_E_BOUND, -34, "the integrand left [0, h]: the bound of the rejection does not hold") \
+    X(BUFFON_E_BOUND, -34, "the integrand is negative or above the bound of the rejection")        \
     X(BUFFON_E_PDF, -35, "a pdf is negative or not finite, or zero where the integrand is not")   \
     X(BUFFON_E_INVERSION, -36, "a quantile function failed, or a CDF could not be inverted")      \
     X(BUFFON_E_TRIES, -37, "rejection did not accept within the allowed number of tries")         \
@@ -53,8 +53,8 @@
     X(BUFFON_W_NO_ERROR, 4, "the points are not random: there is no standard error")              \
     X(BUFFON_W_FEW, 5, "too few samples for a standard error")                                    \
     X(BUFFON_W_NO_SPREAD, 6, "all samples agree: that is not certainty, a feature may be unseen") \
-    X(BUFFON_W_DOMINATED, 7, "a single sample carries a tenth of the variance or more")           \
-    X(BUFFON_W_HEAVY_TAIL, 8, "heavy tail: the standard error cannot be trusted")                 \
+    X(BUFFON_W_HEAVY_TAIL, 7, "heavy tail: the standard error cannot be trusted")                 \
+    X(BUFFON_W_DOMINATED, 8, "a single sample carries a tenth of the variance or more")           \
     X(BUFFON_W_TOLERANCE, 9, "the tolerance was not reached with the samples allowed")
 
 /** The outcome of a call: see the table above. */
