@@ -45,7 +45,7 @@ static void box_map(double *x, const double *u, size_t n, double lo, double hi)
 
 void buffon_priv_box_volume(double *m, int *e, const double *lo, const double *hi, size_t dim)
 {
-    const int64_t bound = 1 << 30; /* of an exponent that is beyond all doubles anyway */
+    const int64_t bound = 1 << 26; /* beyond all doubles; squares may double it twice */
     double mantissa = 1;
     int64_t exponent = 0;
     for (size_t j = 0; j < dim; j++) {

@@ -160,7 +160,11 @@ buffon_status buffon_partial_save(void *bytes, size_t size, const buffon_partial
  * guard the memory against everything else. */
 static int partial_plausible(const buffon_priv_shape *shape)
 {
-    const uint64_t many = UINT64_C(1) << 20;
+    const uint64_t many = UINT64_C(1) << 20, far = UINT64_C(1) << 27;
+    double scale;
+    memcpy(&scale, &shape->scale_m, sizeof scale);
+    if (!(scale > 0 && scale <= 1) || shape->scale_e + far > 2 * far)
+        return 0;
     return shape->kind <= BUFFON_PRIV_RATIO && shape->design <= BUFFON_DESIGN_NONE &&
            shape->components > 0 && shape->components <= many &&
            shape->outputs == shape->components + (shape->kind == BUFFON_PRIV_RATIO) &&

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 /* The value m 2^e with |m| in [1/2, 1), or zero (m = 0, e = 0). An infinite or NaN m has e = 0 and
- * goes through the operations as in the doubles. |e| stays far below 2^20. */
+ * goes through the operations as in the doubles. |e| stays below 2^30. */
 typedef struct buffon_priv_wide {
     double m;
     int e;

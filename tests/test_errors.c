@@ -476,97 +476,6 @@ static void test_outputs(void)
     REFUSES(BUFFON_E_DIM, buffon_self_normalised(e, &f, &three, &box, NULL), "one of components");
 }
 
-static void test_sample_at(void)
-{
-    static const double u[] = {0.25, 0.75};
-    const buffon_points points = buffon_points_replay(u, 1, 2, BUFFON_DESIGN_NONE);
-    const buffon_run run = {.points = &points};
-    const buffon_density box = buffon_segment(0, 4);
-    double x = 0;
-    tap_ok(buffon_sample_at(NULL, &box, 0, NULL) == BUFFON_E_NULL, "sample_at: NULL");
-    tap_ok(buffon_sample_at(&x, &box, 1, &run) == BUFFON_OK && x == 3, "sample_at: the last point");
-    tap_ok(buffon_sample_at(&x, &box, 2, &run) == BUFFON_E_SAMPLES && isnan(x),
-           "sample_at: beyond the points");
-    tap_ok(buffon_sample_at(&x, &box, UINT64_MAX, NULL) == BUFFON_OK && x > 0 && x < 4,
-           "sample_at: random points have no end");
-}
-
-/* A refused run leaves a partial that holds something as it is. */
-static void test_partial(void)
-{
-    const buffon_integrand f = {.scalar = scalar, .dim = 1};
-    buffon_partial partial = {0};
-    buffon_run run = {.samples = 3000, .partial = &partial};
-    unsigned char was[16384], is[16384];
-    if (buffon_uniform(e, &f, lo, hi, &run) < 0)
-        exit(1);
-    const size_t size = buffon_partial_size(&partial);
-    if (size > sizeof was || buffon_partial_save(was, size, &partial) != BUFFON_OK)
-        exit(1);
-    run.samples = 9000;
-    run.confidence = 7;
-    REFUSES(BUFFON_E_CONFIDENCE, buffon_uniform(e, &f, lo, hi, &run), "with a partial");
-    run.confidence = 0;
-    run.seed = 1;
-    REFUSES(BUFFON_E_MISMATCH, buffon_uniform(e, &f, lo, hi, &run), "another run's partial");
-    run.seed = 0;
-    run.parts = 2;
-    REFUSES(BUFFON_E_MISMATCH, buffon_uniform(e, &f, lo, hi, &run), "a whole run's for a part");
-    tap_ok(buffon_partial_size(&partial) == size &&
-               buffon_partial_save(is, size, &partial) == BUFFON_OK && memcmp(was, is, size) == 0,
-           "which is as it was");
-    buffon_partial_free(&partial);
-}
-
-/* ---- the sampler ---- */
-
-static void bad_sampler(buffon_status expected, double *x, size_t n, const buffon_integrand *f,
-                        const buffon_density *g, double envelope, const char *what)
-{
-    buffon_rng rng = buffon_rng_make(1, 2);
-    buffon_rng_skip(&rng, 5);
-    const buffon_rng was = rng;
-    buffon_rejection_report report;
-    memset(&report, 0x55, sizeof report);
-    calls = 0;
-    if (x != NULL)
-        x[0] = 5;
-    const buffon_status got = buffon_rejection_sample(x, n, &report, f, g, envelope, &rng, 0);
-    tap_ok(got == expected && calls == 0 && memcmp(&rng, &was, sizeof rng) == 0 &&
-               report.tries == 0 && report.accepted == 0 && isnan(report.acceptance) &&
-               report.worst == 0 && (x == NULL || x[0] == 5 || isnan(x[0])),
-           "%s: sampler: %s", buffon_status_name(expected), what);
-}
-
-static void test_sampler(void)
-{
-    const buffon_density box = buffon_segment(0, 1), bad = buffon_segment(1, 0);
-    const buffon_inversion how = {.quantile = quantile};
-    const buffon_density bare = buffon_inverse(&how);
-    const buffon_integrand f = {.scalar = scalar, .dim = 1}, plane = {.scalar = scalar, .dim = 2};
-    const buffon_integrand three = {.batch = batch, .dim = 1, .components = 3};
-    const buffon_integrand none = {.dim = 1};
-    static const double envelopes[] = {0, -1, NAN, INFINITY};
-    double x[4];
-    bad_sampler(BUFFON_E_NULL, NULL, 4, &f, &box, 1, "x is NULL");
-    bad_sampler(BUFFON_E_NULL, x, 4, NULL, &box, 1, "f is NULL");
-    bad_sampler(BUFFON_E_NULL, x, 4, &f, NULL, 1, "g is NULL");
-    bad_sampler(BUFFON_E_DOMAIN, x, 4, &f, &bad, 1, "g is bad");
-    bad_sampler(BUFFON_E_UNSUPPORTED, x, 4, &f, &bare, 1, "g has no pdf");
-    bad_sampler(BUFFON_E_DIM, x, 4, &plane, &box, 1, "f has another dimension");
-    bad_sampler(BUFFON_E_DIM, x, 4, &three, &box, 1, "f has components");
-    bad_sampler(BUFFON_E_DIM, x, SIZE_MAX / 2, &f, &box, 1, "n is too large");
-    bad_sampler(BUFFON_E_INTEGRAND, x, 4, &none, &box, 1, "f is no function");
-    for (size_t i = 0; i < sizeof envelopes / sizeof *envelopes; i++)
-        bad_sampler(BUFFON_E_HEIGHT, x, 4, &f, &box, envelopes[i], "envelope");
-    tap_ok(buffon_rejection_sample(x, 4, NULL, &f, &box, 1, NULL, 0) == BUFFON_E_NULL,
-           "BUFFON_E_NULL: sampler: no generator");
-    buffon_rng rng = buffon_rng_make(1, 2);
-    tap_ok(buffon_rejection_sample(NULL, 0, NULL, &f, &box, 1, &rng, 0) == BUFFON_OK &&
-               buffon_rng_tell(&rng) == 0,
-           "sampler: n = 0 draws nothing");
-}
-
 int main(void)
 {
     test_numbers();
@@ -578,8 +487,5 @@ int main(void)
     test_sizes();
     test_strata();
     test_outputs();
-    test_sample_at();
-    test_partial();
-    test_sampler();
     return tap_done();
 }

@@ -226,6 +226,79 @@ static void test_tries(void)
            "just enough tries are enough, one fewer are not");
 }
 
+/* ---- what is refused ---- */
+
+static int calls; /* of the integrands below */
+
+static double counted(const double *at, void *ctx)
+{
+    (void)ctx;
+    calls++;
+    return at[0];
+}
+
+static int counted_batch(double *f, const double *at, size_t n, void *ctx)
+{
+    (void)at;
+    (void)ctx;
+    calls++;
+    for (size_t i = 0; i < 3 * n; i++)
+        f[i] = 1;
+    return 0;
+}
+
+static double identity(double u, void *ctx)
+{
+    (void)ctx;
+    return u;
+}
+
+static void refused(buffon_status expected, double *out, size_t n, const buffon_integrand *f,
+                    const buffon_density *g, double envelope, const char *what)
+{
+    buffon_rng rng = buffon_rng_make(1, 2);
+    buffon_rng_skip(&rng, 5);
+    const buffon_rng was = rng;
+    buffon_rejection_report report;
+    memset(&report, 0x55, sizeof report);
+    calls = 0;
+    if (out != NULL)
+        out[0] = 5;
+    const buffon_status got = buffon_rejection_sample(out, n, &report, f, g, envelope, &rng, 0);
+    tap_ok(got == expected && calls == 0 && memcmp(&rng, &was, sizeof rng) == 0 &&
+               report.tries == 0 && report.accepted == 0 && isnan(report.acceptance) &&
+               report.worst == 0 && (out == NULL || out[0] == 5 || isnan(out[0])),
+           "%s: %s", buffon_status_name(expected), what);
+}
+
+static void test_refused(void)
+{
+    const buffon_density box = buffon_segment(0, 1), bad = buffon_segment(1, 0);
+    const buffon_inversion how = {.quantile = identity};
+    const buffon_density bare = buffon_inverse(&how);
+    const buffon_integrand f = {.scalar = counted, .dim = 1}, plane = {.scalar = counted, .dim = 2};
+    const buffon_integrand three = {.batch = counted_batch, .dim = 1, .components = 3};
+    const buffon_integrand none = {.dim = 1};
+    static const double envelopes[] = {0, -1, NAN, INFINITY};
+    refused(BUFFON_E_NULL, NULL, 4, &f, &box, 1, "x is NULL");
+    refused(BUFFON_E_NULL, x, 4, NULL, &box, 1, "f is NULL");
+    refused(BUFFON_E_NULL, x, 4, &f, NULL, 1, "g is NULL");
+    refused(BUFFON_E_DOMAIN, x, 4, &f, &bad, 1, "g is bad");
+    refused(BUFFON_E_UNSUPPORTED, x, 4, &f, &bare, 1, "g has no pdf");
+    refused(BUFFON_E_DIM, x, 4, &plane, &box, 1, "f has another dimension");
+    refused(BUFFON_E_DIM, x, 4, &three, &box, 1, "f has components");
+    refused(BUFFON_E_DIM, x, SIZE_MAX / 2, &f, &box, 1, "n is too large");
+    refused(BUFFON_E_INTEGRAND, x, 4, &none, &box, 1, "f is no function");
+    for (size_t i = 0; i < sizeof envelopes / sizeof *envelopes; i++)
+        refused(BUFFON_E_HEIGHT, x, 4, &f, &box, envelopes[i], "envelope");
+    tap_ok(buffon_rejection_sample(x, 4, NULL, &f, &box, 1, NULL, 0) == BUFFON_E_NULL,
+           "BUFFON_E_NULL: no generator");
+    buffon_rng rng = buffon_rng_make(1, 2);
+    tap_ok(buffon_rejection_sample(NULL, 0, NULL, &f, &box, 1, &rng, 0) == BUFFON_OK &&
+               buffon_rng_tell(&rng) == 0,
+           "n = 0 draws nothing");
+}
+
 int main(void)
 {
     test_line();
@@ -234,5 +307,6 @@ int main(void)
     test_bound();
     test_density();
     test_tries();
+    test_refused();
     return tap_done();
 }

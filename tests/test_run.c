@@ -390,6 +390,23 @@ static void test_permuted(void)
            "coordinates in another order: the same bits");
 }
 
+/* ---- the point at an index ---- */
+
+static void test_sample_at(void)
+{
+    static const double u[] = {0.25, 0.75};
+    const buffon_points points = buffon_points_replay(u, 1, 2, BUFFON_DESIGN_NONE);
+    const buffon_run run = {.points = &points};
+    const buffon_density box = buffon_segment(0, 4);
+    double x = 0;
+    tap_ok(buffon_sample_at(NULL, &box, 0, NULL) == BUFFON_E_NULL, "sample_at: NULL");
+    tap_ok(buffon_sample_at(&x, &box, 1, &run) == BUFFON_OK && x == 3, "sample_at: the last point");
+    tap_ok(buffon_sample_at(&x, &box, 2, &run) == BUFFON_E_SAMPLES && isnan(x),
+           "sample_at: beyond the points");
+    tap_ok(buffon_sample_at(&x, &box, UINT64_MAX, NULL) == BUFFON_OK && x > 0 && x < 4,
+           "sample_at: random points have no end");
+}
+
 int main(void)
 {
     for (int i = 0; i < PROBLEMS; i++)
@@ -402,5 +419,6 @@ int main(void)
     test_scaling();
     test_shift();
     test_permuted();
+    test_sample_at();
     return tap_done();
 }
