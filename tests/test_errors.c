@@ -114,10 +114,7 @@ static buffon_status estimate(int estimator, const buffon_integrand *f, const bu
 static void bad_run(buffon_status expected, const buffon_run *run, const char *what)
 {
     const buffon_integrand f = {.scalar = scalar, .dim = 1};
-    /* The shares of Neyman's allocation, and so whether the points suffice, follow from the
-     * pilot. */
-    const int late = run->points != NULL && expected == BUFFON_E_SAMPLES;
-    for (int i = 0; i < ESTIMATORS - late; i++) {
+    for (int i = 0; i < ESTIMATORS; i++) {
         char name[128];
         snprintf(name, sizeof name, "%s: %s", estimators[i], what);
         REFUSES(expected, estimate(i, &f, run), name);

@@ -276,6 +276,23 @@ static void test_forged(void)
     buffon_partial_free(&part);
 }
 
+/* Three components with their products: every series must have the count of the first. */
+static void test_forged_series(void)
+{
+    enum { STATS = 4 + BUFFON_STATS_SUM + BUFFON_STATS_SQUARES + BUFFON_STATS_TOP };
+    enum { WHOLE = 3 + 15 + 3, TAIL = WHOLE + 3 * STATS + 3 * BUFFON_STATS_SQUARES };
+    buffon_partial partial = {0};
+    size_t size;
+    const buffon_status status =
+        solve(&partial, &problems[1], (buffon_run){.samples = 90, .block = 16});
+    unsigned char *b = save(&partial, &size);
+    tap_ok(status >= 0 && word_at(b, WHOLE + 2 * STATS) == 80 && word_at(b, TAIL + STATS) == 10 &&
+               forged(b, size, WHOLE + 2 * STATS, 79) && forged(b, size, TAIL + STATS, 9),
+           "forged: counts of another component");
+    free(b);
+    buffon_partial_free(&partial);
+}
+
 int main(void)
 {
     for (int i = 0; i < PROBLEMS; i++)
@@ -284,5 +301,6 @@ int main(void)
     test_layout();
     test_damage();
     test_forged();
+    test_forged_series();
     return tap_done();
 }
