@@ -232,25 +232,52 @@ buffon_priv_wide buffon_priv_spread_value(const buffon_priv_record *record, size
         mean, buffon_priv_spread_output(record, (size_t)record->shape.components));
 }
 
-/* Covariance of two component estimates. Of ratios R_k = A_k / W to first order: that of
- * (A_k - R_k W) / W. */
+/* x y, negated. */
+static buffon_priv_wide spread_less(buffon_priv_wide x, buffon_priv_wide y)
+{
+    return buffon_priv_wide_negate(buffon_priv_wide_mul(x, y));
+}
+
+/* Covariance of two ratios R_k = A_k / W, to first order that of (A_k - R_k W) / W:
+ *
+ *     (V_kl - R_k V_lw - R_l V_kw + R_k R_l V_ww) / W^2
+ *
+ * Where all values of f are far from 0 the four terms cancel. Each was rounded a few times, so a
+ * variance is known within 2^-51 of their sizes: if it is no more than that, no spread was seen,
+ * and else it is made larger by that. */
+static buffon_priv_spread spread_ratio(const buffon_priv_record *record, size_t k, size_t l)
+{
+    const size_t w = (size_t)record->shape.components;
+    const buffon_priv_wide rk = buffon_priv_spread_value(record, k);
+    const buffon_priv_wide rl = buffon_priv_spread_value(record, l);
+    const buffon_priv_wide weight = buffon_priv_spread_output(record, w);
+    const buffon_priv_wide ww = spread_output_covariance(record, w, w).square;
+    const buffon_priv_wide term[3] = {
+        spread_less(rk, spread_output_covariance(record, l, w).square),
+        spread_less(rl, spread_output_covariance(record, k, w).square),
+        buffon_priv_wide_mul(buffon_priv_wide_mul(rk, rl), ww)};
+    buffon_priv_spread v = spread_output_covariance(record, k, l);
+    buffon_priv_wide size = v.square;
+    for (size_t i = 0; i < 3; i++) {
+        const buffon_priv_wide t = term[i];
+        v.square = buffon_priv_wide_add(v.square, t);
+        size = buffon_priv_wide_add(size, t.m < 0 ? buffon_priv_wide_negate(t) : t);
+    }
+    if (k == l) {
+        const buffon_priv_wide bound = buffon_priv_wide_mul(size, buffon_priv_wide_of(0x1p-51));
+        const int seen = buffon_priv_wide_add(v.square, buffon_priv_wide_negate(bound)).m > 0;
+        v.square = seen ? buffon_priv_wide_add(v.square, bound) : buffon_priv_wide_of(0);
+    }
+    v.square = buffon_priv_wide_div(v.square, buffon_priv_wide_mul(weight, weight));
+    return v;
+}
+
 buffon_priv_spread buffon_priv_spread_of(const buffon_priv_record *record, size_t k, size_t l)
 {
-    buffon_priv_spread v = spread_output_covariance(record, k, l);
-    if (record->shape.kind == BUFFON_PRIV_RATIO) {
-        const size_t w = (size_t)record->shape.components;
-        const buffon_priv_wide rk = buffon_priv_spread_value(record, k),
-                               rl = buffon_priv_spread_value(record, l);
-        const buffon_priv_wide weight = buffon_priv_spread_output(record, w);
-        const buffon_priv_wide ww = spread_output_covariance(record, w, w).square;
-        const buffon_priv_wide kw = spread_output_covariance(record, k, w).square;
-        const buffon_priv_wide lw = spread_output_covariance(record, l, w).square;
-        buffon_priv_wide sum = buffon_priv_wide_mul(buffon_priv_wide_mul(rk, rl), ww);
-        sum = buffon_priv_wide_add(sum, buffon_priv_wide_negate(buffon_priv_wide_mul(rk, lw)));
-        sum = buffon_priv_wide_add(sum, buffon_priv_wide_negate(buffon_priv_wide_mul(rl, kw)));
-        v.square = buffon_priv_wide_add(v.square, sum);
-        v.square = buffon_priv_wide_div(v.square, buffon_priv_wide_mul(weight, weight));
-    }
+    buffon_priv_spread v;
+    if (record->shape.kind == BUFFON_PRIV_RATIO)
+        return spread_ratio(record, k, l);
+    v = spread_output_covariance(record, k, l);
     if (k == l && v.square.m < 0)
         v.square = buffon_priv_wide_of(0); /* rounding; a variance is not negative */
     return v;

@@ -203,6 +203,32 @@ static void test_self_normalised(void)
            "self-normalised: effective sample size %.0f", e.ess);
 }
 
+/* Values far from 0: the error never comes out too small, and where rounding hides it the estimate
+ * says that it saw no spread. */
+static double far_first(const double *x, void *ctx)
+{
+    return x[0] + *(const double *)ctx;
+}
+
+static void test_self_normalised_far(void)
+{
+    const buffon_density g = buffon_segment(0, 1);
+    const buffon_integrand p = {.scalar = seven, .dim = 1};
+    const double var = 4 * (0.2 - 1.0 / 3 + 4.0 / 27);
+    double offset = 1;
+    for (int decade = 0; decade <= 10; decade++, offset *= 10) {
+        const buffon_integrand h = {.scalar = far_first, .dim = 1, .ctx = &offset};
+        buffon_estimate e;
+        const buffon_status status =
+            buffon_self_normalised(&e, &h, &p, &g, &(buffon_run){.samples = SAMPLES, .seed = 9});
+        const double ratio = e.variance / var;
+        const int seen = status == BUFFON_OK && ratio > 0.98 && (offset > 1e5 || ratio < 1.02);
+        const int unseen = status == BUFFON_W_NO_SPREAD && offset > 1e6;
+        tap_ok((seen || unseen) && fabs(e.value - offset - 2.0 / 3) < 1e-2,
+               "self-normalised, values near 1e%d: %s", decade, buffon_status_name(status));
+    }
+}
+
 /* ---- inverse CDF ---- */
 
 /* g = 2 x on (0, 1), f = x^3: y = x^2 / 2 with x^2 uniform. */
@@ -445,6 +471,7 @@ int main(void)
     test_importance();
     test_expectation();
     test_self_normalised();
+    test_self_normalised_far();
     test_inverse_cdf();
     test_stratified();
     test_neyman_weights();
