@@ -22,8 +22,8 @@
 #include "elementary.h"
 #include "quantile.h"
 
-#define BETA_LEAST 1e-300 /* beyond these sums and quotients of a and b leave the doubles */
-#define BETA_MOST 1e300
+#define BETA_LEAST 1e-16 /* below it and above the other the steps do not settle */
+#define BETA_MOST 1e30
 #define BETA_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
 #define BETA_MANY 1000   /* of min(a, b): from there on the fraction is slow near the mean */
 #define BETA_STEPS 20000 /* of the fraction at most */

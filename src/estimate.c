@@ -95,6 +95,17 @@ static void estimate_weights(buffon_estimate *out, const buffon_priv_record *rec
         buffon_priv_wide_to_double(buffon_priv_wide_div(buffon_priv_wide_mul(top, top), sum));
 }
 
+/* What the rounding of the value may come to. Where pairs or strata cancel, its terms are larger
+ * than itself: they count as soon as the error is of such a size. */
+static double estimate_rounding(const buffon_estimate *out)
+{
+    const double largest = -out->min > out->max ? -out->min : out->max;
+    double size = out->value < 0 ? -out->value : out->value;
+    if (largest > size && out->std_error < 0x1p-30 * largest)
+        size = largest;
+    return 0x1p-52 * size;
+}
+
 /* lo and hi. Hits of independent points have Clopper and Pearson's; a spread has Student's, widened
  * by the rounding of the value; no spread and no error mean that nothing is known. */
 static void estimate_interval(buffon_estimate *out, const buffon_priv_record *record, double dof)
@@ -103,7 +114,9 @@ static void estimate_interval(buffon_estimate *out, const buffon_priv_record *re
     const double alpha = (1 - out->confidence) / (double)shape->looks;
     if (shape->kind == BUFFON_PRIV_HITS && shape->design == BUFFON_DESIGN_INDEPENDENT) {
         const buffon_priv_wide scale = buffon_priv_spread_factor(record, 0);
-        const uint64_t hits = (uint64_t)(out->acceptance * (double)out->samples + 0.5);
+        /* Between 0 and 1, but a loaded record is only as sound as its bytes. */
+        const double share = out->acceptance > 0 && out->acceptance <= 1 ? out->acceptance : 0;
+        const uint64_t hits = (uint64_t)(share * (double)out->samples + 0.5);
         buffon_priv_clopper_pearson(&out->lo, &out->hi, hits, out->samples, alpha);
         out->lo =
             buffon_priv_wide_to_double(buffon_priv_wide_mul(scale, buffon_priv_wide_of(out->lo)));
@@ -113,9 +126,10 @@ static void estimate_interval(buffon_estimate *out, const buffon_priv_record *re
     } else if (out->std_error == 0 && shape->constant) {
         out->lo = out->hi = out->value;
         out->interval = BUFFON_INTERVAL_EXACT;
-    } else if (out->std_error > 0 && out->std_error < INFINITY && dof > 0) {
-        const double rounding = 0x1p-52 * (out->value < 0 ? -out->value : out->value);
-        const double half = buffon_priv_student_two_sided(alpha, dof) * out->std_error + rounding;
+    } else if (out->std_error > 0 && out->std_error < INFINITY && dof > 0 &&
+               out->value - out->value == 0) {
+        const double half = buffon_priv_student_two_sided(alpha, dof) * out->std_error +
+                            estimate_rounding(out);
         out->lo = out->value - half;
         out->hi = out->value + half;
         out->interval = BUFFON_INTERVAL_STUDENT;
@@ -132,7 +146,7 @@ static void estimate_doubts(buffon_estimate *out, const buffon_priv_record *reco
         doubts |= BUFFON_DOUBT(BUFFON_W_NONFINITE);
     if (shape->design == BUFFON_DESIGN_NONE)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_ERROR);
-    else if (out->std_error == INFINITY)
+    else if (out->std_error == INFINITY || out->value - out->value != 0)
         doubts |= BUFFON_DOUBT(BUFFON_W_FEW);
     if (out->std_error == 0 && !shape->constant)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_SPREAD);

@@ -27,7 +27,7 @@ static buffon_status interval_mean(double *lo, double *hi, double mean, double s
                                    double dof, double confidence)
 {
     const buffon_status status = interval_begin(lo, hi, confidence);
-    double t;
+    double t, half;
     if (status != BUFFON_OK) {
         return status;
     }
@@ -35,8 +35,10 @@ static buffon_status interval_mean(double *lo, double *hi, double mean, double s
         return BUFFON_E_SHAPE;
     }
     t = buffon_priv_student_central(confidence, 1 - confidence, dof);
-    *lo = mean - t * std_error;
-    *hi = mean + t * std_error;
+    /* t may be infinite or 0: then no error stays none, and an infinite one infinite. */
+    half = std_error > 0 && buffon_priv_isfinite(std_error) ? t * std_error : std_error;
+    *lo = mean - half;
+    *hi = mean + half;
     return BUFFON_OK;
 }
 
@@ -84,7 +86,8 @@ buffon_status buffon_interval_wilson(double *lo, double *hi, uint64_t hits, uint
     z = buffon_priv_normal_central(0.5 * confidence);
     rest = (double)(n - hits);
     sum = k + 0.5 * z * z + z * sqrt(k * (rest / total) + 0.25 * z * z);
-    *lo = k * (k / total) / sum;
-    *hi = hits == n ? 1 : sum / (total + z * z);
+    *lo = hits == 0 ? 0 : k * (k / total) / sum;
+    *hi = sum / (total + z * z);
+    *hi = hits == n || *hi > 1 ? 1 : *hi;
     return BUFFON_OK;
 }

@@ -158,7 +158,7 @@ static int inversion_solve(double *x, double u, const buffon_inversion *how)
         const int at_lo = s.a < -DBL_MAX || s.a <= s.lo, at_hi = s.b > DBL_MAX || s.b >= s.hi;
         if (found < 0)
             break;
-        *x = found ? s.x : at_hi ? s.a : s.b;
+        *x = found ? s.x : at_hi && s.a >= -DBL_MAX ? s.a : s.b;
         if (found || !(at_lo || at_hi))
             return 0;
         const double end = at_hi ? (s.b > DBL_MAX ? DBL_MAX : s.hi)

@@ -5,6 +5,7 @@
 #include "density_priv.h"
 #include "mix.h"
 #include "options.h"
+#include "points_priv.h"
 
 #define OPTIONS_THREADS_MOST 4096
 
@@ -134,6 +135,9 @@ buffon_status buffon_priv_problem_check(const buffon_priv_problem *problem, cons
             status = buffon_priv_points_check(run->points,
                                               problem->stratum[s].g->uniforms + problem->extra);
     }
+    if (status == BUFFON_OK && run != NULL && run->points != NULL &&
+        !buffon_priv_points_serve(run->points, problem->strata))
+        status = BUFFON_E_POINTS;
     return status;
 }
 

@@ -176,11 +176,15 @@ static int partial_plausible(const buffon_priv_shape *shape)
            shape->looks <= 64;
 }
 
-/* Do the counts of a record fit each other? */
+/* Do the counts of a record fit each other, and are its weights numbers? */
 static int partial_consistent(const buffon_priv_record *record)
 {
     const buffon_priv_shape *shape = &record->shape;
     const size_t cells = buffon_priv_shape_cells(shape), series = buffon_priv_shape_series(shape);
+    for (size_t s = 0; s < shape->strata; s++) {
+        if (!(record->weight[s] - record->weight[s] == 0))
+            return 0;
+    }
     for (size_t c = 0; c < cells; c++) {
         const uint64_t blocks = record->target[c] / shape->block;
         const uint64_t rest = record->target[c] % shape->block;

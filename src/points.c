@@ -3,6 +3,7 @@
 #include <buffon/points.h>
 
 #include "mix.h"
+#include "points_priv.h"
 
 /* Points are worked on in tiles that fit the stack and the first cache. */
 #define POINTS_TILE 1024
@@ -171,6 +172,12 @@ static int points_fill_replay(double *u, const buffon_points_block *block,
         }
     }
     return bad;
+}
+
+int buffon_priv_points_serve(const buffon_points *points, size_t strata)
+{
+    return points->fill != points_fill_replay || points->design == BUFFON_DESIGN_NONE ||
+           (strata == 1 && points->replicates <= 1);
 }
 
 static uint64_t points_round_replay(size_t dim, const buffon_points *self)

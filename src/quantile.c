@@ -9,7 +9,8 @@
 #define QUANTILE_NAN buffon_priv_from_bits(UINT64_C(0x7ff8000000000000))
 #define QUANTILE_INF buffon_priv_from_bits(UINT64_C(0x7ff0000000000000))
 
-#define QUANTILE_LEAST 1e-19 /* degrees of freedom: below it, P(|T| <= 1e308) is less than 1e-16 */
+#define QUANTILE_LEAST 1e-15 /* degrees of freedom: below it, P(|T| <= 1e308) is less than 1e-12 */
+#define QUANTILE_FAR 800     /* log T that no double has, with some to spare */
 
 /* t from the normal quantile z of the same tails: the first terms of the Cornish-Fisher series in
  * 1 / dof, M. Abramowitz, I. Stegun (1964), 26.7.5. The first term left out is about
@@ -41,6 +42,10 @@ double buffon_priv_student_central(double inside, double outside, double dof)
         return 0;
     }
     if (outside == 0 || dof < QUANTILE_LEAST) {
+        return QUANTILE_INF;
+    }
+    /* Far out, P(|T| > t) is t^-dof but for a factor that tends to 1 with dof. */
+    if (dof < 1e-6 && -buffon_priv_log1p(-inside) > QUANTILE_FAR * dof) {
         return QUANTILE_INF;
     }
     if (dof >= 1000 && z * z <= 0.01 * dof) {

@@ -19,11 +19,13 @@ static buffon_status rejection_weigh(double *y, size_t *bad, const buffon_priv_b
     const buffon_integrand *f = problem->stratum[0].f;
     const size_t n = batch->n, components = f->components > 0 ? f->components : 1;
     const double height = problem->param;
+    /* v height must not be rounded to a few subnormal steps. */
+    const double scale = height < 0x1p-900 ? 0x1p900 : 1, top = scale * height;
     size_t lowest = n;
     for (size_t k = 0; k < components; k++) {
         for (size_t i = 0; i < n; i++) {
             const double value = batch->f[k * n + i];
-            y[k * n + i] = batch->extra[i] * height < value ? 1 : 0;
+            y[k * n + i] = batch->extra[i] * top < scale * value ? 1 : 0;
             if (value >= 0 && value <= height)
                 continue;
             if (value - value != 0)

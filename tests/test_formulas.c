@@ -1,5 +1,6 @@
 /* Every number of an estimate against its formula, written out plainly over the points of the run,
  * which buffon_sample_at gives: value, variance, std_error, covariances, interval and the rest. */
+#include <float.h>
 #include <stdlib.h>
 
 #include "problems.h"
@@ -330,6 +331,52 @@ static void test_looks(void)
            "one look: alpha");
 }
 
+static double tower(const double *x, void *ctx)
+{
+    return *(const double *)ctx * (1 + x[0] * 1e-11);
+}
+
+/* +1 and -1 on the halves, and a little more that is all the integral. */
+static double halves(const double *x, void *ctx)
+{
+    (void)ctx;
+    return (x[0] < 0.5 ? 1 : -1) + 1e-14 * x[0];
+}
+
+static double least(const double *x, void *ctx)
+{
+    (void)x;
+    (void)ctx;
+    return DBL_TRUE_MIN;
+}
+
+/* An interval never says more than the doubles can. */
+static void test_ends_of_doubles(void)
+{
+    enum { RUNS = 300 };
+    const buffon_points cells = buffon_points_jitter(2), kronecker = problem_kronecker();
+    const buffon_integrand two = {.scalar = halves, .dim = 1}, small = {.scalar = least, .dim = 1};
+    const double lo = 0, hi = 10, one = 1;
+    double high = 1e308;
+    const buffon_integrand huge = {.scalar = tower, .dim = 1, .ctx = &high};
+    buffon_run run = {.samples = 3000};
+    buffon_estimate e;
+    tap_ok(buffon_uniform(&e, &huge, &lo, &hi, &run) == BUFFON_W_FEW && e.value == INFINITY &&
+               e.lo == -INFINITY && e.hi == INFINITY,
+           "a value beyond the doubles is not OK, and has no interval");
+    int missed = 0;
+    run.points = &cells;
+    for (run.seed = 0; run.seed < RUNS; run.seed++) {
+        const buffon_status status = buffon_uniform(&e, &two, &lo, &one, &run);
+        missed += status != BUFFON_OK || !(e.lo <= 0.5e-14 && 0.5e-14 <= e.hi);
+    }
+    tap_ok(missed == 0, "cells that cancel: rounding is in the interval, %d missed", missed);
+    run.points = &kronecker;
+    tap_ok(buffon_rejection(&e, &small, &lo, &hi, DBL_TRUE_MIN, &run) == BUFFON_W_NO_SPREAD &&
+               e.acceptance == 1,
+           "the smallest height: all below it are hits");
+}
+
 int main(void)
 {
     const buffon_points pairs = buffon_points_antithetic(), jitter = buffon_points_jitter(4);
@@ -355,5 +402,6 @@ int main(void)
     test_strata();
     test_hits();
     test_looks();
+    test_ends_of_doubles();
     return tap_done();
 }

@@ -313,6 +313,10 @@ static void test_symmetry(void)
     tap_ok(buffon_student_upper(0.3, 1e-3) > 1e219 && buffon_student_upper(0.3, 1e-5) == INFINITY &&
                buffon_student_upper(0.3, 1e-310) == INFINITY,
            "t with next to no degrees of freedom leaves the doubles");
+    tap_ok(buffon_student_upper(0x1.d99dd427390afp-2, 0x1.c2000950603edp-59) == INFINITY &&
+               buffon_student_upper(0.4, 1e-12) == INFINITY &&
+               buffon_student_upper(0.5 - 1e-10, 1e-12) > 1e30,
+           "nor does it lose its way there");
     tap_ok(buffon_beta_quantile(0, 2, 3) == 0 && buffon_beta_quantile(1, 2, 3) == 1, "beta ends");
 }
 
@@ -350,6 +354,8 @@ static void test_nan(void)
              !isnan(buffon_beta_quantile(0.1, -1, 1)) ||
              !isnan(buffon_beta_quantile(0.1, NAN, 1)) ||
              !isnan(buffon_beta_quantile(0.1, 1, INFINITY));
+    wrong += !isnan(buffon_beta_quantile(0.1, 1e-17, 2)) ||
+             !isnan(buffon_beta_quantile(0.1, 2, 1e31));
     tap_ok(wrong == 0, "arguments outside give NaN");
 }
 
@@ -357,6 +363,21 @@ static void test_nan(void)
 static int test_refused(buffon_status got, buffon_status want, const double *lo, const double *hi)
 {
     return got == want && isnan(*lo) && isnan(*hi);
+}
+
+/* Where the quantile is 0 or infinite, and where rounding leads past 1. */
+static void test_extremes(void)
+{
+    const uint64_t n = UINT64_C(1) << 53;
+    double lo, hi;
+    int good = buffon_interval_student(&lo, &hi, 2, 0, 1e-17, 0.95) == BUFFON_OK;
+    tap_ok(good && lo == 2 && hi == 2, "no error is none at any quantile");
+    good = buffon_interval_normal(&lo, &hi, 2, INFINITY, DBL_TRUE_MIN) == BUFFON_OK;
+    tap_ok(good && lo == -INFINITY && hi == INFINITY, "an infinite error is infinite at any");
+    good = buffon_interval_wilson(&lo, &hi, 0, 10, 1e-300) == BUFFON_OK;
+    tap_ok(good && lo == 0 && hi >= 0, "Wilson: no hits, no confidence");
+    good = buffon_interval_wilson(&lo, &hi, n - 1, n, 1 - 0x1p-53) == BUFFON_OK;
+    tap_ok(good && lo < 1 && hi <= 1, "Wilson: never above 1");
 }
 
 static void test_statuses(void)
@@ -466,6 +487,7 @@ int main(void)
     test_symmetry();
     test_tiny_alpha();
     test_nan();
+    test_extremes();
     test_statuses();
     test_bits();
     return tap_done();

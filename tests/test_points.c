@@ -297,6 +297,12 @@ static void test_replay_designs(void)
     points = buffon_points_replay(u, 1, 5, BUFFON_DESIGN_ANTITHETIC);
     run.samples = 5;
     tap_ok(buffon_uniform(&a, &f, lo, hi, &run) == BUFFON_E_SAMPLES, "half a pair is refused");
+    const buffon_density g1 = buffon_segment(0, 1);
+    const buffon_stratum twice[] = {{.density = &g1}, {.density = &g1}};
+    points = buffon_points_replay(u, 1, 6, BUFFON_DESIGN_INDEPENDENT);
+    tap_ok(buffon_stratified(&a, &f, &(buffon_strata){.stratum = twice, .count = 2}, &run) ==
+               BUFFON_E_POINTS,
+           "two strata with the same numbers are refused");
 }
 
 /* ---- a user's ---- */

@@ -25,7 +25,8 @@ BUFFON_API double buffon_normal_quantile(double p);
  *  In:      q    in [0, 1]; by symmetry the lower quantile of q is minus this
  *           dof  degrees of freedom, > 0, need not be whole; infinity gives the normal
  *  Returns: NaN for arguments outside
- *  Exact:   1e-12 relative (tests/test_interval.c)
+ *  Exact:   1e-12 relative for dof from 0.01 (tests/test_interval.c); below, about 1e-16 / dof, and
+ *           below 1e-15 infinite but for q = 1/2
  *  Since:   0.1
  */
 BUFFON_API double buffon_student_upper(double q, double dof);
@@ -33,7 +34,7 @@ BUFFON_API double buffon_student_upper(double q, double dof);
 /** The quantile of the beta distribution: x with P(X <= x) = p.
  *
  *  In:      p     in [0, 1]
- *           a, b  1e-300 to 1e300
+ *           a, b  1e-16 to 1e30
  *  Returns: NaN for arguments outside
  *  Exact:   1e-12 relative for a and b from 0.01 to 1e12 (tests/test_interval.c); below, about
  *           1e-16 / a

@@ -87,7 +87,9 @@ BUFFON_API buffon_points buffon_points_jitter(uint64_t k);
  *
  *  In:      u[dim*count]  coordinate-major, in (0, 1); must outlive the run
  *           dim, count    the run must have this dimension and at most so many samples
- *           design        what the caller vouches for: INDEPENDENT, ANTITHETIC or NONE
+ *           design        what the caller vouches for: INDEPENDENT, ANTITHETIC or NONE. Several
+ *                         strata or replicates would get the same numbers, so with them only NONE
+ *                         is taken
  *  Cost:    reads the numbers once, to tell partial results of different ones apart
  *  Since:   0.1
  */

@@ -51,7 +51,7 @@
     X(BUFFON_W_INCOMPLETE, 2, "incomplete: only some parts of the run are here")                  \
     X(BUFFON_W_NONFINITE, 3, "values that are not finite were left out or counted as zero")       \
     X(BUFFON_W_NO_ERROR, 4, "the points are not random: there is no standard error")              \
-    X(BUFFON_W_FEW, 5, "too few samples for a standard error")                                    \
+    X(BUFFON_W_FEW, 5, "no standard error: too few samples, or numbers beyond the doubles")       \
     X(BUFFON_W_NO_SPREAD, 6, "all samples agree: that is not certainty, a feature may be unseen") \
     X(BUFFON_W_HEAVY_TAIL, 7, "heavy tail: the standard error cannot be trusted")                 \
     X(BUFFON_W_DOMINATED, 8, "a single sample carries a tenth of the variance or more")           \
