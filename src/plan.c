@@ -274,8 +274,10 @@ int buffon_priv_plan_look(buffon_priv_plan *plan, const buffon_priv_record *reco
         const uint64_t whole = (plan->look[c] + block - 1) / block * block;
         const uint64_t target = record->target[c];
         plan->look[c] = last || whole > target ? target : whole;
+        /* The short last block of a small stratum may belong to an early look. */
         ahead |= plan_extent(record, c) > plan->look[c] ||
-                 (!last && buffon_priv_cell_count(&record->tail, c, &plan->shape) > 0);
+                 (plan->look[c] < target &&
+                  buffon_priv_cell_count(&record->tail, c, &plan->shape) > 0);
     }
     return !ahead;
 }

@@ -233,9 +233,45 @@ static void check_naive(void)
            (double)covered / NAIVE_SEEDS);
 }
 
+static int cancel_always(const buffon_progress *progress, void *ctx)
+{
+    (void)progress;
+    (void)ctx;
+    return 1;
+}
+
+/* A stratum so small that its only block, a short one, is done at the first look: the looks after
+ * it take place all the same, and a run that was cancelled finds them again. */
+static void check_small_stratum(double abs_tol, uint64_t samples)
+{
+    const buffon_density box = buffon_box(unit_lo, unit_hi, 2);
+    const buffon_stratum stratum[] = {{.density = &box, .weight = 1e-3, .share = 1e-3},
+                                      {.density = &box}};
+    const buffon_strata strata = {.stratum = stratum, .count = 2};
+    const buffon_integrand f = {.batch = square_batch, .dim = 2};
+    buffon_partial partial = {{0}, NULL};
+    buffon_run run = {.samples = 200000, .abs_tol = abs_tol};
+    buffon_estimate whole, e;
+    buffon_status status = buffon_stratified(&whole, &f, &strata, &run);
+    tap_ok(status == BUFFON_OK && whole.samples == samples + 200,
+           "a small stratum: stops at %llu samples", (unsigned long long)whole.samples);
+    run.partial = &partial;
+    run.progress = cancel_always;
+    for (int k = 0; k < 4; k++)
+        status = buffon_stratified(&e, &f, &strata, &run);
+    run.progress = NULL;
+    status = buffon_stratified(&e, &f, &strata, &run);
+    tap_ok(status == BUFFON_OK && e.samples == whole.samples && e.value == whole.value &&
+               e.lo == whole.lo && e.hi == whole.hi,
+           "and where it was cancelled too");
+    buffon_partial_free(&partial);
+}
+
 int main(void)
 {
     check_tolerances();
+    check_small_stratum(0.0075, 8192);
+    check_small_stratum(0.005, 16384);
     check_no_spread();
     check_naive();
     return tap_done();
