@@ -113,6 +113,8 @@ buffon_priv_wide buffon_priv_cross_covariance(const uint64_t *s_ab, const buffon
 buffon_priv_wide buffon_priv_stats_variance(const buffon_stats *s)
 {
     buffon_priv_wide variance = buffon_priv_cross_covariance(s->squares, s, s);
+    if (s->count < 2) /* the same NaN on every machine */
+        return buffon_priv_wide_of(NAN);
     if (variance.m < 0.0) /* no values give this, but a sample is only as sound as its memory */
         variance = (buffon_priv_wide){0.0, 0};
     return variance;

@@ -62,9 +62,9 @@ BUFFON_API buffon_points buffon_points_random(void);
 
 /** Antithetic pairs: a random point u and its mirror image 1 - u.
  *
- *  Law:     each point is uniform; the error comes from the means of the pairs. Exact for
- *           integrands that are odd about the middle, never worse than plain for monotone ones, and
- *           twice the variance for even ones
+ *  Law:     each point is uniform; the error comes from the means of the pairs. Exact, up
+ *           to rounding, for integrands that are odd about the middle, never worse than plain for
+ *           monotone ones, and twice the variance for even ones
  *  Draws:   dim uniforms a pair
  *  Source:  J. Hammersley, K. Morton (1956), A new Monte Carlo technique: antithetic variates
  *  Since:   0.1

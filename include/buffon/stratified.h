@@ -39,8 +39,9 @@ typedef struct buffon_strata {
  *  errors too.
  *
  *  Out:     out[components]  std_error^2 is the sum of weight^2 variance / n; the interval is
- *                            Student's with Welch and Satterthwaite's degrees of freedom. variance
- *                            is n std_error^2: that of one sample if samples are given as they were
+ *                            Student's with Welch and Satterthwaite's degrees of freedom. Of
+ *                            several strata, variance is n std_error^2: that of one sample if
+ *                            samples are given as they were
  *  In:      f        the common integrand; may be NULL where every stratum has its own
  *           strata   densities of one dimension; run.samples is the total, each stratum's part is
  *                    rounded up and at least 2
