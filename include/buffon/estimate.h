@@ -22,6 +22,12 @@ typedef enum buffon_interval_kind {
  *  limit theorem (the Clopper-Pearson one: always). After a run that could stop early it covers all
  *  the looks together, so it is wider than value -+ 2 std_error. What no sample saw, nothing here
  *  can show.
+ *
+ *  bad_index is the first failure in the order of evaluation, whatever the threads. That is the
+ *  lowest index, but with strata or replicates the first in (block, cell) order; and where a
+ *  density fails, no earlier failure of the integrand in the same block is looked for. A batch that
+ *  stops, or a density that fails without making a point NaN, is named by the first point of its
+ *  block.
  */
 typedef struct buffon_estimate {
     double value;       /* NaN if there is no estimate */
