@@ -23,18 +23,17 @@ static const double *box_hi(const buffon_density *g)
     return g->data[1] ? (const double *)g->data[1] : g->param + BOX_COPIED;
 }
 
+#define KERNELS "box_lanes.h"
+#include "levels.h"
+
 /* Rounding may lead lo + u (hi - lo) to lo or to hi, so it is held between their neighbours, as far
  * as there are any. Where hi - lo overflows, so does neither product of the other form. */
-static void box_map(double *x, const double *u, size_t n, double lo, double hi)
+static void box_line(double *x, const double *u, size_t n, double lo, double hi)
 {
     const double width = hi - lo, up = buffon_priv_nextup(lo), down = buffon_priv_nextdown(hi);
     const double least = up < hi ? up : lo, most = up < hi ? down : hi;
     if (buffon_priv_isfinite(width))
-        for (size_t i = 0; i < n; i++) {
-            const double v = lo + u[i] * width;
-            const double w = v < least ? least : v;
-            x[i] = w > most ? most : w;
-        }
+        LEVELS_RUN(box_map, (x, u, n, lo, width, least, most));
     else
         for (size_t i = 0; i < n; i++) {
             const double v = lo * (1 - u[i]) + hi * u[i];
@@ -90,7 +89,7 @@ static int box_draw(double *x, double *pdf, const double *u, size_t n, const buf
 {
     const double *lo = box_lo(g), *hi = box_hi(g);
     for (size_t j = 0; j < g->dim; j++)
-        box_map(x + j * n, u + j * n, n, lo[j], hi[j]);
+        box_line(x + j * n, u + j * n, n, lo[j], hi[j]);
     if (pdf)
         density_fill(pdf, box_density(g), n);
     return 0;
@@ -162,8 +161,8 @@ static buffon_status box_check(const double *lo, const double *hi, size_t dim)
 
 buffon_density buffon_box(const double *lo, const double *hi, size_t dim)
 {
-    buffon_density g = {.uniforms = dim, .dim = dim, .status = box_check(lo, hi, dim),
-                        .ops = &box_ops};
+    buffon_density g = {
+        .uniforms = dim, .dim = dim, .status = box_check(lo, hi, dim), .ops = &box_ops};
     if (g.status != BUFFON_OK)
         return g;
     if (dim <= BOX_COPIED) {
@@ -194,5 +193,5 @@ void buffon_box_sample(double *x, const double *u, const double *lo, const doubl
         if (bad)
             x[j] = (double)NAN;
         else
-            box_map(x + j, u + j, 1, lo[j], hi[j]);
+            box_line(x + j, u + j, 1, lo[j], hi[j]);
 }

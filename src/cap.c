@@ -13,23 +13,8 @@
  * the largest squared chord from the axis that counts as inside. */
 enum { CAP_HEIGHT = FRAME_SIZE, CAP_REST, CAP_REACH };
 
-/* With w = 1 - z = h u: 1 - z^2 = w (2 - w) and 2 - w = (2 - h) + h (1 - u), products and sums of
- * positives, right to the last digits from the smallest cap to the whole sphere. */
-static void cap_map(double *restrict x, double *restrict y, double *restrict z,
-                    const double *restrict u1, const double *restrict u2, size_t n,
-                    const double *restrict param)
-{
-    const double h = param[CAP_HEIGHT], rest = param[CAP_REST], root = sqrt(h);
-    buffon_priv_circle(x, y, u2, n);
-    for (size_t i = 0; i < n; i++) {
-        const double s = root * sqrt(u1[i] * (rest + h * (1 - u1[i])));
-        x[i] *= s;
-        y[i] *= s;
-        z[i] = 1 - h * u1[i];
-    }
-    if (!frame_is_upright(param))
-        frame_turn(x, y, z, n, param);
-}
+#define KERNELS "cap_lanes.h"
+#include "levels.h"
 
 static double cap_density(const buffon_density *g)
 {
@@ -38,9 +23,7 @@ static double cap_density(const buffon_density *g)
 
 static int cap_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
-    for (size_t i = 0; i < n; i += CIRCLE_TILE)
-        cap_map(x + i, x + n + i, x + 2 * n + i, u + i, u + n + i,
-                n - i < CIRCLE_TILE ? n - i : CIRCLE_TILE, g->param);
+    LEVELS_RUN(cap_map, (x, x + n, x + 2 * n, u, u + n, n, g->param));
     if (pdf)
         density_fill(pdf, cap_density(g), n);
     return 0;
@@ -163,7 +146,7 @@ void buffon_cap_sample(double x[3], double u1, double u2, double cut)
 {
     const buffon_density g = buffon_cap(cut);
     if (g.status == BUFFON_OK)
-        cap_map(x, x + 1, x + 2, &u1, &u2, 1, g.param);
+        cap_map_scalar(x, x + 1, x + 2, &u1, &u2, 1, g.param);
     else
         density_fill(x, (double)NAN, 3);
 }

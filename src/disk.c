@@ -8,27 +8,8 @@
 #include "density_priv.h"
 #include "elementary.h"
 
-static void disk_polar(double *restrict x, double *restrict y, const double *restrict u1,
-                       const double *restrict u2, size_t n, double radius)
-{
-    buffon_priv_circle(x, y, u2, n);
-    for (size_t i = 0; i < n; i++) {
-        const double s = sqrt(u1[i]);
-        const double r = radius * (s > CIRCLE_RIM ? CIRCLE_RIM : s);
-        x[i] *= r;
-        y[i] *= r;
-    }
-}
-
-static void disk_concentric(double *restrict x, double *restrict y, const double *restrict u1,
-                            const double *restrict u2, size_t n, double radius)
-{
-    buffon_priv_concentric(x, y, u1, u2, n);
-    for (size_t i = 0; i < n; i++) {
-        x[i] *= radius;
-        y[i] *= radius;
-    }
-}
+#define KERNELS "disk_lanes.h"
+#include "levels.h"
 
 static double disk_density(double radius)
 {
@@ -37,9 +18,7 @@ static double disk_density(double radius)
 
 static int disk_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
-    for (size_t i = 0; i < n; i += CIRCLE_TILE)
-        disk_polar(x + i, x + n + i, u + i, u + n + i, n - i < CIRCLE_TILE ? n - i : CIRCLE_TILE,
-                   g->param[0]);
+    LEVELS_RUN(disk_polar, (x, x + n, u, u + n, n, g->param[0]));
     if (pdf)
         density_fill(pdf, disk_density(g->param[0]), n);
     return 0;
@@ -48,9 +27,7 @@ static int disk_draw(double *x, double *pdf, const double *u, size_t n, const bu
 static int disk_draw_concentric(double *x, double *pdf, const double *u, size_t n,
                                 const buffon_density *g)
 {
-    for (size_t i = 0; i < n; i += CIRCLE_TILE)
-        disk_concentric(x + i, x + n + i, u + i, u + n + i,
-                        n - i < CIRCLE_TILE ? n - i : CIRCLE_TILE, g->param[0]);
+    LEVELS_RUN(disk_concentric, (x, x + n, u, u + n, n, g->param[0]));
     if (pdf)
         density_fill(pdf, disk_density(g->param[0]), n);
     return 0;
@@ -137,12 +114,12 @@ buffon_density buffon_disk_concentric(double radius)
 
 void buffon_disk_sample(double x[2], double u1, double u2)
 {
-    disk_polar(x, x + 1, &u1, &u2, 1, 1);
+    disk_polar_scalar(x, x + 1, &u1, &u2, 1, 1);
 }
 
 void buffon_disk_sample_concentric(double x[2], double u1, double u2)
 {
-    buffon_priv_concentric(x, x + 1, &u1, &u2, 1);
+    disk_concentric_scalar(x, x + 1, &u1, &u2, 1, 1);
 }
 
 void buffon_disk_invert(double u[2], const double x[2])

@@ -9,31 +9,14 @@
 #include "density_priv.h"
 #include "frame.h"
 
-/* The radius on the disk below is |2 v - 1|, v the uniform further from 1/2. So the height is
- * sqrt(1 - (2 v - 1)^2) = 2 sqrt(v (1 - v)), which neither cancels nor vanishes. */
-static void hemisphere_map(double *restrict x, double *restrict y, double *restrict z,
-                           const double *restrict u1, const double *restrict u2, size_t n)
-{
-    buffon_priv_concentric(x, y, u1, u2, n);
-    for (size_t i = 0; i < n; i++) {
-        const double p = u1[i] * (1 - u1[i]), q = u2[i] * (1 - u2[i]);
-        z[i] = 2 * sqrt(p < q ? p : q);
-    }
-}
+#define KERNELS "hemisphere_lanes.h"
+#include "levels.h"
 
 static int hemisphere_draw_cosine(double *x, double *pdf, const double *u, size_t n,
                                   const buffon_density *g)
 {
-    for (size_t i = 0; i < n; i += CIRCLE_TILE) {
-        const size_t m = n - i < CIRCLE_TILE ? n - i : CIRCLE_TILE;
-        double *row[3] = {x + i, x + n + i, x + 2 * n + i};
-        hemisphere_map(row[0], row[1], row[2], u + i, u + n + i, m);
-        if (pdf)
-            for (size_t k = 0; k < m; k++)
-                pdf[i + k] = DENSITY_INV_PI * row[2][k];
-        if (!frame_is_upright(g->param))
-            frame_turn(row[0], row[1], row[2], m, g->param);
-    }
+    double *const row[4] = {x, x + n, x + 2 * n, pdf};
+    LEVELS_RUN(hemisphere_map, (row, u, u + n, n, g->param));
     return 0;
 }
 
@@ -102,7 +85,8 @@ void buffon_hemisphere_sample(double x[3], double u1, double u2)
 
 void buffon_hemisphere_sample_cosine(double x[3], double u1, double u2)
 {
-    hemisphere_map(x, x + 1, x + 2, &u1, &u2, 1);
+    double *const row[4] = {x, x + 1, x + 2, NULL};
+    hemisphere_points_scalar(row, &u1, &u2, 1, NULL);
 }
 
 void buffon_hemisphere_invert(double u[2], const double x[3])

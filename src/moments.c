@@ -6,9 +6,10 @@
 #include "exact.h"
 #include "stats_priv.h"
 
-/* A lane takes four rows of 16 values at a time. Lanes start afresh every MOMENTS_CHUNK values:
- * fewer numbers in a row means less rounding. */
-enum { MOMENTS_LANES = 16, MOMENTS_ROWS = 4 * MOMENTS_LANES, MOMENTS_CHUNK = 1024 };
+/* Value i belongs to lane i mod 16. A row is four values of each lane, which are added to one another
+ * first. Lanes start afresh every MOMENTS_CHUNK values: fewer numbers in a row means less rounding.
+ */
+enum { MOMENTS_LANES = 16, MOMENTS_ROW = 4 * MOMENTS_LANES, MOMENTS_CHUNK = 1024 };
 
 /* Scales that keep squares and their sums inside the doubles: data beyond 2^500 come down by 2^600,
  * data below 2^-400 go up by it. That is exact for all but values 2^500 times below the largest. */
@@ -20,6 +21,9 @@ typedef struct moments_lanes {
     double r[MOMENTS_LANES], q[MOMENTS_LANES];
     double min[MOMENTS_LANES], max[MOMENTS_LANES];
 } moments_lanes;
+
+#define KERNELS "moments_lanes.h"
+#include "levels.h"
 
 static inline double moments_lesser(double a, double b)
 {
@@ -57,25 +61,9 @@ static const double *moments_view(double *buffer, const double *y, size_t n, dou
 /* One chunk about the number m: adds to r and q, widens min and max. */
 static void moments_chunk(moments_lanes *t, const double *y, size_t n, double m)
 {
-    double r[MOMENTS_LANES] = {0}, q[MOMENTS_LANES] = {0};
-    size_t i = 0;
-    for (; i + MOMENTS_ROWS <= n; i += MOMENTS_ROWS) {
-        const double *y0 = y + i, *y1 = y0 + MOMENTS_LANES;
-        const double *y2 = y1 + MOMENTS_LANES, *y3 = y2 + MOMENTS_LANES;
-        for (size_t l = 0; l < MOMENTS_LANES; l++) {
-            double a = y0[l], b = y1[l], c = y2[l], d = y3[l];
-            double min = moments_lesser(moments_lesser(a, b), moments_lesser(c, d));
-            double max = moments_greater(moments_greater(a, b), moments_greater(c, d));
-            a -= m;
-            b -= m;
-            c -= m;
-            d -= m;
-            r[l] += (a + b) + (c + d);
-            q[l] += (a * a + b * b) + (c * c + d * d);
-            t->min[l] = moments_lesser(t->min[l], min);
-            t->max[l] = moments_greater(t->max[l], max);
-        }
-    }
+    double r[MOMENTS_LANES], q[MOMENTS_LANES];
+    size_t i = n - n % MOMENTS_ROW;
+    LEVELS_RUN(moments_rows, (r, q, t->min, t->max, y, n / MOMENTS_ROW, m));
     for (; i < n; i++) {
         size_t l = i % MOMENTS_LANES;
         double d = y[i] - m;
@@ -157,17 +145,9 @@ size_t buffon_priv_moments_block(buffon_priv_moments *out, const double *y, size
 static void moments_cross_chunk(double *total, const double *a, const double *b, size_t n,
                                 double ma, double mb)
 {
-    double q[MOMENTS_LANES] = {0};
-    size_t i = 0;
-    for (; i + MOMENTS_ROWS <= n; i += MOMENTS_ROWS) {
-        for (size_t l = i; l < i + MOMENTS_LANES; l++) {
-            double p0 = (a[l] - ma) * (b[l] - mb);
-            double p1 = (a[l + MOMENTS_LANES] - ma) * (b[l + MOMENTS_LANES] - mb);
-            double p2 = (a[l + 2 * MOMENTS_LANES] - ma) * (b[l + 2 * MOMENTS_LANES] - mb);
-            double p3 = (a[l + 3 * MOMENTS_LANES] - ma) * (b[l + 3 * MOMENTS_LANES] - mb);
-            q[l - i] += (p0 + p1) + (p2 + p3);
-        }
-    }
+    double q[MOMENTS_LANES];
+    size_t i = n - n % MOMENTS_ROW;
+    LEVELS_RUN(moments_cross_rows, (q, a, b, n / MOMENTS_ROW, ma, mb));
     for (; i < n; i++)
         q[i % MOMENTS_LANES] += (a[i] - ma) * (b[i] - mb);
     for (size_t l = 0; l < MOMENTS_LANES; l++)

@@ -1,52 +1,12 @@
-/* Rows of xoshiro256++ started by Philox: include/buffon/rng.h says what every bit is.
- *
- * The 16 lanes of a row go through the registers in groups of two vectors, each group for all the
- * steps asked for, its words stored 16 apart. Two vectors hide the latency of the chain, and their
- * eight state words leave room for the temporaries in 16 registers. Rejected: vectors wider than
- * those of the machine (gcc spills them) and plain loops for the compiler to vectorise (gcc does
- * not). A vector of one word is an integer, so the same source is the portable one.
- *
- * A vector may have any width up to 64 bytes: the layout fixes the bits, not the vector.
- */
+/* Rows of xoshiro256++ started by Philox: include/buffon/rng.h says what every bit is. The layout
+ * fixes the bits, not the vectors that make them. */
 #include "guard.h"
 
 #include <buffon/rng.h>
 
 #include <string.h>
 
-/* BUFFON_NO_VECTORS asks for the plain loops. */
-#if defined(BUFFON_NO_VECTORS) || !defined(__GNUC__)
-#define RNG_VECTOR 8
-#elif defined(__AVX512F__)
-#define RNG_VECTOR 64
-#elif defined(__AVX2__)
-#define RNG_VECTOR 32
-#elif defined(__SSE2__) || defined(__ARM_NEON)
-#define RNG_VECTOR 16
-#else
-#define RNG_VECTOR 8
-#endif
-
-#if RNG_VECTOR > 8 && defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
-#if RNG_VECTOR > 8
-typedef uint64_t rng_vector __attribute__((vector_size(RNG_VECTOR)));
-typedef double rng_doubles __attribute__((vector_size(RNG_VECTOR)));
-#else
-typedef uint64_t rng_vector;
-typedef double rng_doubles;
-#endif
-
-#if defined(__GNUC__)
-#define RNG_INLINE static inline __attribute__((always_inline))
-#else
-#define RNG_INLINE static inline
-#endif
-
 #define RNG_LANES 16
-#define RNG_WIDTH (RNG_VECTOR / 8) /* lanes of a vector */
 
 enum { RNG_NOTHING, RNG_WORDS, RNG_UNIFORMS };
 
@@ -82,34 +42,8 @@ void buffon_rng_philox(uint32_t out[4], const uint32_t counter[4], const uint32_
     out[3] = c3;
 }
 
-/* The products of the low halves: one instruction on x86, which gcc does not find by itself. */
-RNG_INLINE rng_vector rng_multiply(rng_vector a, uint32_t b)
-{
-#if RNG_VECTOR == 64
-    return (rng_vector)_mm512_mul_epu32((__m512i)a, _mm512_set1_epi64(b));
-#elif RNG_VECTOR == 32
-    return (rng_vector)_mm256_mul_epu32((__m256i)a, _mm256_set1_epi64x(b));
-#elif RNG_VECTOR == 16 && defined(__SSE2__)
-    return (rng_vector)_mm_mul_epu32((__m128i)a, _mm_set1_epi64x(b));
-#else
-    return (a & UINT32_MAX) * b;
-#endif
-}
-
-/* The same with a block in each lane of a vector. A counter word is the low half of its lane; what
- * the high half holds between the rounds is never looked at. */
-RNG_INLINE void rng_philox(rng_vector c[4], uint32_t k0, uint32_t k1)
-{
-    for (int round = 0; round < 10; round++) {
-        rng_vector p = rng_multiply(c[0], RNG_M0), q = rng_multiply(c[2], RNG_M1);
-        c[0] = q >> 32 ^ c[1] ^ k0;
-        c[1] = q;
-        c[2] = p >> 32 ^ c[3] ^ k1;
-        c[3] = p;
-        k0 += RNG_W0;
-        k1 += RNG_W1;
-    }
-}
+#define KERNELS "rng_lanes.h"
+#include "levels.h"
 
 /* ---- rows --------------------------------------------------------------------------------- */
 
@@ -126,88 +60,12 @@ static void rng_derive(uint32_t k[4], const buffon_rng_key *key, uint32_t dimens
  * they differ, and the state is never all zero. */
 static void rng_start(uint64_t state[4][RNG_LANES], const uint32_t k[4], uint64_t row)
 {
-    static const uint64_t block[RNG_LANES] = {0,  2,  4,  6,  8,  10, 12, 14,
-                                              16, 18, 20, 22, 24, 26, 28, 30};
-    for (int lane = 0; lane < RNG_LANES; lane += RNG_WIDTH) {
-        for (uint32_t h = 0; h < 2; h++) {
-            rng_vector c[4], low;
-            memcpy(&low, &block[lane], sizeof low);
-            c[0] = (rng_vector){0} + k[2];
-            c[1] = (rng_vector){0} + k[3];
-            c[2] = low + ((uint32_t)(row << 5) | h);
-            c[3] = (rng_vector){0} + (uint32_t)(row >> 27);
-            rng_philox(c, k[0], k[1]);
-            for (int j = 0; j < 2; j++) {
-                rng_vector s = (c[2 * j] & UINT32_MAX) | c[2 * j + 1] << 32;
-                memcpy(&state[2 * h + (uint32_t)j][lane], &s, sizeof s);
-            }
-        }
-    }
+    LEVELS_RUN(rng_start, (state, k, row));
 }
 
-RNG_INLINE rng_vector rng_rotate(rng_vector x, int n)
-{
-    return x << n | x >> (64 - n);
-}
-
-/* xoshiro256++ */
-RNG_INLINE rng_vector rng_step(rng_vector s[4])
-{
-    rng_vector word = rng_rotate(s[0] + s[3], 23) + s[0];
-    rng_vector t = s[1] << 17;
-    s[2] ^= s[0];
-    s[3] ^= s[1];
-    s[1] ^= s[2];
-    s[0] ^= s[3];
-    s[2] ^= t;
-    s[3] = rng_rotate(s[3], 45);
-    return word;
-}
-
-/* The fraction of a double in [1, 2) is k, and what is subtracted is 1 - 2^-53: the difference is
- * (k + 1/2) 2^-52, a multiple of 2^-53 below 1, hence exact in any rounding mode. */
-RNG_INLINE void rng_put(unsigned char *out, size_t at, rng_vector word, int what)
-{
-    if (what == RNG_WORDS)
-        memcpy(out + at, &word, sizeof word);
-    if (what == RNG_UNIFORMS) {
-        rng_doubles u;
-        word = word >> 12 | UINT64_C(0x3ff0000000000000);
-        memcpy(&u, &word, sizeof u);
-        u -= 0x1.fffffffffffffp-1;
-        memcpy(out + at, &u, sizeof u);
-    }
-}
-
-RNG_INLINE void rng_run(unsigned char *out, uint64_t state[4][RNG_LANES], size_t steps, int what)
-{
-    for (size_t lane = 0; lane < RNG_LANES; lane += 2 * RNG_WIDTH) {
-        rng_vector a[4], b[4];
-        for (int j = 0; j < 4; j++) {
-            memcpy(&a[j], &state[j][lane], sizeof a[j]);
-            memcpy(&b[j], &state[j][lane + RNG_WIDTH], sizeof b[j]);
-        }
-        for (size_t i = 0; i < steps; i++) {
-            size_t at = 8 * (RNG_LANES * i + lane);
-            rng_put(out, at, rng_step(a), what);
-            rng_put(out, at + RNG_VECTOR, rng_step(b), what);
-        }
-        for (int j = 0; j < 4; j++) {
-            memcpy(&state[j][lane], &a[j], sizeof a[j]);
-            memcpy(&state[j][lane + RNG_WIDTH], &b[j], sizeof b[j]);
-        }
-    }
-}
-
-/* The next steps of all lanes, 16 words or uniforms each; with RNG_NOTHING they are passed over. */
 static void rng_go(void *out, uint64_t state[4][RNG_LANES], size_t steps, int what)
 {
-    if (what == RNG_UNIFORMS)
-        rng_run(out, state, steps, RNG_UNIFORMS);
-    else if (what == RNG_WORDS)
-        rng_run(out, state, steps, RNG_WORDS);
-    else
-        rng_run(NULL, state, steps, RNG_NOTHING);
+    LEVELS_RUN(rng_go, (out, state, steps, what));
 }
 
 /* Those from `from` on of a row, at most to its end. Only whole steps go straight to out. */

@@ -8,25 +8,13 @@
 #include "density_priv.h"
 #include "frame.h"
 
-/* 1 - z^2 = 4 u (1 - u): a product of positives, where 1 - z * z would cancel at the poles. */
-static void sphere_map(double *restrict x, double *restrict y, double *restrict z,
-                       const double *restrict u1, const double *restrict u2, size_t n)
-{
-    buffon_priv_circle(x, y, u2, n);
-    for (size_t i = 0; i < n; i++) {
-        const double s = 2 * sqrt(u1[i] * (1 - u1[i]));
-        x[i] *= s;
-        y[i] *= s;
-        z[i] = 1 - 2 * u1[i];
-    }
-}
+#define KERNELS "sphere_lanes.h"
+#include "levels.h"
 
 static int sphere_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
     (void)g;
-    for (size_t i = 0; i < n; i += CIRCLE_TILE)
-        sphere_map(x + i, x + n + i, x + 2 * n + i, u + i, u + n + i,
-                   n - i < CIRCLE_TILE ? n - i : CIRCLE_TILE);
+    LEVELS_RUN(sphere_map, (x, x + n, x + 2 * n, u, u + n, n));
     if (pdf)
         density_fill(pdf, 0.25 * DENSITY_INV_PI, n);
     return 0;
@@ -63,7 +51,7 @@ buffon_density buffon_sphere(void)
 
 void buffon_sphere_sample(double x[3], double u1, double u2)
 {
-    sphere_map(x, x + 1, x + 2, &u1, &u2, 1);
+    sphere_map_scalar(x, x + 1, x + 2, &u1, &u2, 1);
 }
 
 /* u1 is a quarter of the squared chord to the north pole, and 1 - u1 of that to the south pole: the

@@ -1,0 +1,274 @@
+/* Private. Lanes of doubles and of 64-bit words: included by levels.h, once for each level.
+ *
+ * LANES_WIDTH lanes make a vector of the machine's own width; wider ones would be spilled. Compilers
+ * give + - * / & | ^ << >> on vectors and with single numbers; here is what they do not give, each
+ * with the result of plain C in every lane:
+ *
+ *     lanes_d, lanes_u, lanes_m       doubles, words, truth values
+ *     lanes_all(x), lanes_words(w)    the same in all lanes
+ *     lanes_load(p, m), lanes_store(p, v, m)   m lanes of memory; lanes from m on are the last one
+ *     lanes_bits(v), lanes_double(w)  the bits of doubles, and back
+ *     lanes_less(a, b), lanes_less_equal(a, b), lanes_equal(a, b), lanes_odd(w)
+ *     lanes_and(m, k), lanes_or(m, k)
+ *     lanes_every(m)                  1 if m holds in all lanes, else 0
+ *     lanes_pick(m, a, b)             m ? a : b
+ *     lanes_min(a, b), lanes_max(a, b)   a < b ? a : b,  a > b ? a : b
+ *     lanes_abs(v), lanes_copysign(v, s), lanes_sqrt(v)
+ *
+ * With one lane all of it is plain C on double and uint64_t: the portable level, and the scalar
+ * functions of elementary.h, are the same source.
+ */
+#define lanes_d LANES(lanes_d)
+#define lanes_u LANES(lanes_u)
+#define lanes_m LANES(lanes_m)
+#define lanes_all LANES(lanes_all)
+#define lanes_words LANES(lanes_words)
+#define lanes_load LANES(lanes_load)
+#define lanes_store LANES(lanes_store)
+#define lanes_bits LANES(lanes_bits)
+#define lanes_double LANES(lanes_double)
+#define lanes_less LANES(lanes_less)
+#define lanes_less_equal LANES(lanes_less_equal)
+#define lanes_equal LANES(lanes_equal)
+#define lanes_odd LANES(lanes_odd)
+#define lanes_and LANES(lanes_and)
+#define lanes_or LANES(lanes_or)
+#define lanes_every LANES(lanes_every)
+#define lanes_pick LANES(lanes_pick)
+#define lanes_min LANES(lanes_min)
+#define lanes_max LANES(lanes_max)
+#define lanes_abs LANES(lanes_abs)
+#define lanes_copysign LANES(lanes_copysign)
+#define lanes_sqrt LANES(lanes_sqrt)
+
+#if LANES_WIDTH == 1
+
+typedef double lanes_d;
+typedef uint64_t lanes_u;
+typedef int lanes_m;
+
+#else
+
+typedef double lanes_d __attribute__((vector_size(8 * LANES_WIDTH)));
+typedef uint64_t lanes_u __attribute__((vector_size(8 * LANES_WIDTH)));
+#if LANES_WIDTH == 8
+typedef __mmask8 lanes_m;
+#else
+typedef int64_t lanes_m __attribute__((vector_size(8 * LANES_WIDTH))); /* 0 or -1 */
+#endif
+
+#endif
+
+/* ---- memory ---- */
+
+LANES_INLINE lanes_u lanes_bits(lanes_d v)
+{
+    lanes_u w;
+    memcpy(&w, &v, sizeof w);
+    return w;
+}
+
+LANES_INLINE lanes_d lanes_double(lanes_u w)
+{
+    lanes_d v;
+    memcpy(&v, &w, sizeof v);
+    return v;
+}
+
+LANES_INLINE lanes_d lanes_all(double x)
+{
+#if LANES_WIDTH == 1
+    return x;
+#else
+    return x - (lanes_d){0}; /* also for -0 */
+#endif
+}
+
+LANES_INLINE lanes_u lanes_words(uint64_t w)
+{
+#if LANES_WIDTH == 1
+    return w;
+#else
+    return w + (lanes_u){0};
+#endif
+}
+
+LANES_INLINE lanes_d lanes_load(const double *p, size_t m)
+{
+    lanes_d v;
+    if (m >= LANES_WIDTH) {
+        memcpy(&v, p, sizeof v);
+    } else {
+        double part[LANES_WIDTH];
+        for (size_t l = 0; l < LANES_WIDTH; l++)
+            part[l] = p[l < m ? l : m - 1];
+        memcpy(&v, part, sizeof v);
+    }
+    return v;
+}
+
+LANES_INLINE void lanes_store(double *p, lanes_d v, size_t m)
+{
+    if (m >= LANES_WIDTH) {
+        memcpy(p, &v, sizeof v);
+    } else {
+        double part[LANES_WIDTH];
+        memcpy(part, &v, sizeof v);
+        for (size_t l = 0; l < m; l++)
+            p[l] = part[l];
+    }
+}
+
+/* ---- choices ---- */
+
+#if LANES_WIDTH == 8
+
+LANES_INLINE lanes_m lanes_less(lanes_d a, lanes_d b)
+{
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+}
+
+LANES_INLINE lanes_m lanes_less_equal(lanes_d a, lanes_d b)
+{
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
+}
+
+LANES_INLINE lanes_m lanes_equal(lanes_d a, lanes_d b)
+{
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_EQ_OQ);
+}
+
+LANES_INLINE lanes_m lanes_odd(lanes_u w)
+{
+    return _mm512_test_epi64_mask((__m512i)w, _mm512_set1_epi64(1));
+}
+
+LANES_INLINE lanes_d lanes_pick(lanes_m m, lanes_d a, lanes_d b)
+{
+    return (lanes_d)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a);
+}
+
+#else
+
+LANES_INLINE lanes_m lanes_less(lanes_d a, lanes_d b)
+{
+    return a < b;
+}
+
+LANES_INLINE lanes_m lanes_less_equal(lanes_d a, lanes_d b)
+{
+    return a <= b;
+}
+
+LANES_INLINE lanes_m lanes_equal(lanes_d a, lanes_d b)
+{
+    return a == b;
+}
+
+LANES_INLINE lanes_m lanes_odd(lanes_u w)
+{
+#if LANES_WIDTH == 1
+    return (int)(w & 1);
+#else
+    return (lanes_m)(0 - (w & 1));
+#endif
+}
+
+LANES_INLINE lanes_d lanes_pick(lanes_m m, lanes_d a, lanes_d b)
+{
+#if LANES_WIDTH == 1
+    return m ? a : b;
+#elif LANES_WIDTH == 4
+    return (lanes_d)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)m);
+#else
+    return lanes_double((lanes_bits(a) & (lanes_u)m) | (lanes_bits(b) & ~(lanes_u)m));
+#endif
+}
+
+#endif
+
+LANES_INLINE lanes_m lanes_and(lanes_m m, lanes_m k)
+{
+    return (lanes_m)(m & k);
+}
+
+LANES_INLINE lanes_m lanes_or(lanes_m m, lanes_m k)
+{
+    return (lanes_m)(m | k);
+}
+
+LANES_INLINE int lanes_every(lanes_m m)
+{
+#if LANES_WIDTH == 1
+    return m;
+#elif LANES_WIDTH == 8
+    return m == 0xff;
+#elif LANES_WIDTH == 4
+    return _mm256_movemask_pd((__m256d)m) == 0xf;
+#elif LEVELS_HAVE_X86
+    return _mm_movemask_pd((__m128d)m) == 0x3;
+#else
+    return (m[0] & m[1]) != 0;
+#endif
+}
+
+/* The instructions of x86 do just what the C expressions say, with NaN and -0 too; those of ARM do
+ * not. */
+LANES_INLINE lanes_d lanes_min(lanes_d a, lanes_d b)
+{
+#if LANES_WIDTH == 8
+    return (lanes_d)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif LANES_WIDTH == 4
+    return (lanes_d)_mm256_min_pd((__m256d)a, (__m256d)b);
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return (lanes_d)_mm_min_pd((__m128d)a, (__m128d)b);
+#else
+    return lanes_pick(lanes_less(a, b), a, b);
+#endif
+}
+
+LANES_INLINE lanes_d lanes_max(lanes_d a, lanes_d b)
+{
+#if LANES_WIDTH == 8
+    return (lanes_d)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif LANES_WIDTH == 4
+    return (lanes_d)_mm256_max_pd((__m256d)a, (__m256d)b);
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return (lanes_d)_mm_max_pd((__m128d)a, (__m128d)b);
+#else
+    return lanes_pick(lanes_less(b, a), a, b);
+#endif
+}
+
+/* ---- doubles ---- */
+
+LANES_INLINE lanes_d lanes_abs(lanes_d v)
+{
+    return lanes_double(lanes_bits(v) & UINT64_C(0x7fffffffffffffff));
+}
+
+/* The magnitude of v with the sign of s. */
+LANES_INLINE lanes_d lanes_copysign(lanes_d v, lanes_d s)
+{
+    const uint64_t sign = UINT64_C(0x8000000000000000);
+    return lanes_double((lanes_bits(v) & ~sign) | (lanes_bits(s) & sign));
+}
+
+LANES_INLINE lanes_d lanes_sqrt(lanes_d v)
+{
+#if LANES_WIDTH == 8
+    return (lanes_d)_mm512_sqrt_pd((__m512d)v);
+#elif LANES_WIDTH == 4
+    return (lanes_d)_mm256_sqrt_pd((__m256d)v);
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return (lanes_d)_mm_sqrt_pd((__m128d)v);
+#elif LANES_WIDTH == 2
+    return (lanes_d)vsqrtq_f64((float64x2_t)v);
+#else
+    return sqrt(v);
+#endif
+}
+
+#include "lanes_math.h"
+
+#include "lanes_circle.h"
