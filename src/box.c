@@ -30,6 +30,8 @@ static const double *box_hi(const buffon_density *g)
  * as there are any. Where hi - lo overflows, so does neither product of the other form. */
 static void box_line(double *x, const double *u, size_t n, double lo, double hi)
 {
+    if (x == u && lo == 0 && hi == 1)
+        return; /* what is in (0, 1) is between the neighbours of 0 and 1 */
     const double width = hi - lo, up = buffon_priv_nextup(lo), down = buffon_priv_nextdown(hi);
     const double least = up < hi ? up : lo, most = up < hi ? down : hi;
     if (buffon_priv_isfinite(width))
@@ -146,6 +148,11 @@ static const buffon_density_ops box_ops = {.sample = box_draw,
                                            .invert = box_invert,
                                            .identity = box_identity,
                                            .name = "buffon.box"};
+
+int buffon_priv_box_is(const buffon_density *g)
+{
+    return g->ops == &box_ops;
+}
 
 static buffon_status box_check(const double *lo, const double *hi, size_t dim)
 {

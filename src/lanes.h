@@ -9,7 +9,7 @@
  *     lanes_load(p, m), lanes_store(p, v, m)   m lanes of memory; lanes from m on are the last one
  *     lanes_bits(v), lanes_double(w)  the bits of doubles, and back
  *     lanes_less(a, b), lanes_less_equal(a, b), lanes_equal(a, b), lanes_odd(w)
- *     lanes_and(m, k), lanes_or(m, k)
+ *     lanes_and(m, k), lanes_or(m, k), lanes_any(m)   the last an int: whether any lane is true
  *     lanes_every(m)                  1 if m holds in all lanes, else 0
  *     lanes_pick(m, a, b)             m ? a : b
  *     lanes_min(a, b), lanes_max(a, b)   a < b ? a : b,  a > b ? a : b
@@ -33,6 +33,7 @@
 #define lanes_odd LANES(lanes_odd)
 #define lanes_and LANES(lanes_and)
 #define lanes_or LANES(lanes_or)
+#define lanes_any LANES(lanes_any)
 #define lanes_every LANES(lanes_every)
 #define lanes_pick LANES(lanes_pick)
 #define lanes_min LANES(lanes_min)
@@ -180,6 +181,9 @@ LANES_INLINE lanes_d lanes_pick(lanes_m m, lanes_d a, lanes_d b)
     return m ? a : b;
 #elif LANES_WIDTH == 4
     return (lanes_d)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)m);
+#elif LEVELS_HAVE_X86
+    return (lanes_d)_mm_or_pd(_mm_and_pd((__m128d)m, (__m128d)a),
+                              _mm_andnot_pd((__m128d)m, (__m128d)b));
 #else
     return lanes_double((lanes_bits(a) & (lanes_u)m) | (lanes_bits(b) & ~(lanes_u)m));
 #endif
@@ -187,14 +191,27 @@ LANES_INLINE lanes_d lanes_pick(lanes_m m, lanes_d a, lanes_d b)
 
 #endif
 
+/* In C gcc turns the truth values of SSE2 and AVX2 into numbers of general registers and back. */
 LANES_INLINE lanes_m lanes_and(lanes_m m, lanes_m k)
 {
+#if LANES_WIDTH == 4
+    return (lanes_m)_mm256_and_pd((__m256d)m, (__m256d)k);
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return (lanes_m)_mm_and_pd((__m128d)m, (__m128d)k);
+#else
     return (lanes_m)(m & k);
+#endif
 }
 
 LANES_INLINE lanes_m lanes_or(lanes_m m, lanes_m k)
 {
+#if LANES_WIDTH == 4
+    return (lanes_m)_mm256_or_pd((__m256d)m, (__m256d)k);
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return (lanes_m)_mm_or_pd((__m128d)m, (__m128d)k);
+#else
     return (lanes_m)(m | k);
+#endif
 }
 
 LANES_INLINE int lanes_every(lanes_m m)
@@ -209,6 +226,19 @@ LANES_INLINE int lanes_every(lanes_m m)
     return _mm_movemask_pd((__m128d)m) == 0x3;
 #else
     return (m[0] & m[1]) != 0;
+#endif
+}
+
+LANES_INLINE int lanes_any(lanes_m m)
+{
+#if LANES_WIDTH == 4
+    return _mm256_movemask_pd((__m256d)m) != 0;
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return _mm_movemask_pd((__m128d)m) != 0;
+#elif LANES_WIDTH == 2
+    return (m[0] | m[1]) != 0;
+#else
+    return m != 0;
 #endif
 }
 

@@ -9,22 +9,23 @@
 #include "exact.h"
 #include "stats_priv.h"
 
+/* Moves the smaller ones down by one place; a list that is not full ends in zeros. */
+static inline void stats_top_insert(double *top, double size)
+{
+    size_t i = BUFFON_STATS_TOP - 1;
+    if (!(size > top[i]))
+        return;
+    for (; i > 0 && top[i - 1] < size; i--)
+        top[i] = top[i - 1];
+    top[i] = size;
+}
+
+#define KERNELS "stats_lanes.h"
+#include "levels.h"
+
 void buffon_priv_top_add(double *top, const double *y, size_t n)
 {
-    for (size_t k = 0; k < n; k++) {
-        double size = buffon_priv_abs(y[k]);
-        if (!(size > top[BUFFON_STATS_TOP - 1]))
-            continue;
-        /* Each takes the place of the next smaller, until an empty place is filled or the last is
-         * pushed out: a short list costs no more than it holds. */
-        for (size_t i = 0; i < BUFFON_STATS_TOP && size > 0; i++) {
-            const double kept = top[i];
-            if (kept < size) {
-                top[i] = size;
-                size = kept;
-            }
-        }
-    }
+    LEVELS_RUN(stats_top, (top, y, n));
 }
 
 void buffon_stats_add(buffon_stats *s, const double *y, size_t n)
@@ -37,8 +38,7 @@ void buffon_stats_add(buffon_stats *s, const double *y, size_t n)
         buffon_priv_value_add(s->sum, s->squares, y[i]);
         min = y[i] < min ? y[i] : min;
         max = y[i] > max ? y[i] : max;
-        if (buffon_priv_abs(y[i]) > s->top[BUFFON_STATS_TOP - 1])
-            buffon_priv_top_add(s->top, y + i, 1);
+        stats_top_insert(s->top, buffon_priv_abs(y[i]));
         added++;
     }
     s->count += added;

@@ -3,23 +3,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "box.h"
 #include "density_priv.h"
 #include "exact.h"
 #include "worker.h"
 
-/* The most uniforms, coordinates and components of any stratum. */
+/* The arrays of a block lie one below the other, each a little more than its size under the one it is
+ * computed from. At a whole number of pages the processor would take each load for one of what was
+ * just stored; so what it could take it for is stored later. */
+#define WORKER_LINE 8 /* doubles of a cache line, where an array begins */
+#define WORKER_GAP (2 * WORKER_LINE)
+
+/* The most uniforms, coordinates and components of any stratum; of coordinates those that do not lie
+ * where their uniforms were. */
 typedef struct worker_sizes {
-    size_t uniforms, dim, components;
+    size_t uniforms, dim, apart, components;
 } worker_sizes;
 
 static worker_sizes worker_measure(const buffon_priv_problem *problem)
 {
-    worker_sizes most = {0, 0, 0};
+    worker_sizes most = {0, 0, 0, 0};
     for (size_t s = 0; s < problem->strata; s++) {
         const buffon_priv_stratum *stratum = &problem->stratum[s];
         const size_t uniforms = stratum->g->uniforms + problem->extra;
         most.uniforms = uniforms > most.uniforms ? uniforms : most.uniforms;
+        const size_t apart = buffon_priv_box_is(stratum->g) ? 0 : stratum->g->dim;
         most.dim = stratum->g->dim > most.dim ? stratum->g->dim : most.dim;
+        most.apart = apart > most.apart ? apart : most.apart;
         most.components = stratum->f->components > 0 ? stratum->f->components : 1;
     }
     return most;
@@ -33,19 +43,22 @@ buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_p
     const worker_sizes most = worker_measure(problem);
     const size_t outputs = (size_t)shape->outputs, series = buffon_priv_shape_series(shape);
     /* Sums cannot wrap: uniforms and dim are below 2^32, the rest below 2^20. */
-    const size_t rows[] = {most.uniforms, most.dim,        1, most.components, problem->p != NULL,
-                           outputs,       series - outputs};
-    double **const arrays[] = {&worker->u, &worker->x, &worker->pdf, &worker->f,
-                               &worker->p, &worker->y, &worker->pair};
-    size_t all = 0;
+    const size_t rows[] = {most.uniforms,      most.dim,
+                           problem->pdf != 0,  most.components,
+                           problem->p != NULL, problem->weigh != NULL ? outputs : 0,
+                           series - outputs};
+    double **const arrays[] = {&worker->u, &worker->apart, &worker->pdf, &worker->f,
+                               &worker->p, &worker->y,     &worker->pair};
+    const size_t count = sizeof rows / sizeof *rows;
+    size_t all = 2 * WORKER_LINE;
     memset(worker, 0, sizeof *worker);
     worker->plan = plan;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (rows[i] > SIZE_MAX / 16 / sizeof(double) / n - all / n - 1)
             return BUFFON_E_NOMEM;
-        all += rows[i] * n;
+        all += rows[i] * n + WORKER_LINE + WORKER_GAP;
     }
-    worker->memory = malloc((all + most.dim) * sizeof(double));
+    worker->memory = malloc((all + WORKER_LINE * most.dim) * sizeof(double));
     worker->moments = calloc(series, sizeof *worker->moments);
     if (worker->memory == NULL || worker->moments == NULL ||
         buffon_priv_cells_make(&worker->whole, shape) != 0 ||
@@ -53,11 +66,12 @@ buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_p
         buffon_priv_worker_free(worker);
         return BUFFON_E_NOMEM;
     }
-    worker->row = worker->memory + all;
-    all = 0;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        *arrays[i] = worker->memory + all;
-        all += rows[i] * n;
+    worker->row = worker->memory;
+    double *at = worker->memory + WORKER_LINE * most.dim;
+    at += WORKER_LINE - ((uintptr_t)at / sizeof(double)) % WORKER_LINE;
+    for (size_t i = count; i-- > 0;) {
+        *arrays[i] = at;
+        at += (rows[i] * n + WORKER_LINE - 1) / WORKER_LINE * WORKER_LINE + WORKER_GAP;
     }
     return BUFFON_OK;
 }
@@ -72,17 +86,23 @@ void buffon_priv_worker_free(buffon_priv_worker *worker)
     worker->moments = NULL;
 }
 
-/* f[components * n] at x[dim * n]. */
+/* f[components * n] at x[dim * n]. A function of one point gets the points of a cache line at a time:
+ * the lines of many coordinates lie pages apart, and the cache keeps few of those. */
 static buffon_status worker_integrand(buffon_priv_worker *worker, double *f,
                                       const buffon_integrand *integrand, size_t n)
 {
     const double *x = worker->x;
+    const size_t dim = integrand->dim;
     if (integrand->batch != NULL)
         return integrand->batch(f, x, n, integrand->ctx) == 0 ? BUFFON_OK : BUFFON_E_STOPPED;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < integrand->dim; j++)
-            worker->row[j] = x[j * n + i];
-        f[i] = integrand->scalar(worker->row, integrand->ctx);
+    for (size_t i = 0; i < n; i += WORKER_LINE) {
+        const size_t some = n - i < WORKER_LINE ? n - i : WORKER_LINE;
+        for (size_t j = 0; j < dim; j++) {
+            for (size_t k = 0; k < some; k++)
+                worker->row[k * dim + j] = x[j * n + i + k];
+        }
+        for (size_t k = 0; k < some; k++)
+            f[i + k] = integrand->scalar(worker->row + k * dim, integrand->ctx);
     }
     return BUFFON_OK;
 }
@@ -107,13 +127,14 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
     const buffon_priv_problem *problem = plan->problem;
     const size_t stratum = task->cell / (size_t)plan->shape.replicates;
     const buffon_density *g = problem->stratum[stratum].g;
+    double *x = buffon_priv_box_is(g) ? worker->u : worker->apart;
     const buffon_points_block block = {.key = buffon_priv_plan_key(plan, task->cell),
                                        .first = task->k * plan->shape.block,
                                        .n = task->n,
                                        .dim = g->uniforms + problem->extra,
                                        .table = plan->table[task->cell]};
     const buffon_priv_batch batch = {.n = task->n,
-                                     .x = worker->x,
+                                     .x = x,
                                      .pdf = worker->pdf,
                                      .extra = worker->u + g->uniforms * task->n,
                                      .f = worker->f,
@@ -123,12 +144,13 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
     buffon_status status;
     *bad = 0;
     *y = NULL;
+    worker->x = x;
     if (plan->points.fill(worker->u, &block, &plan->points) != 0)
         return BUFFON_E_POINTS;
     status = buffon_priv_density_result(
-        g->ops->sample(worker->x, problem->pdf ? worker->pdf : NULL, worker->u, task->n, g));
+        g->ops->sample(x, problem->pdf ? worker->pdf : NULL, worker->u, task->n, g));
     if (status != BUFFON_OK) {
-        *bad = worker_first_nan(worker->x, g->dim, task->n);
+        *bad = worker_first_nan(x, g->dim, task->n);
         return status;
     }
     status = worker_integrand(worker, worker->f, problem->stratum[stratum].f, task->n);

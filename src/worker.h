@@ -15,7 +15,8 @@ typedef struct buffon_priv_task {
 typedef struct buffon_priv_worker {
     const buffon_priv_plan *plan;
     double *memory; /* that the arrays below are cut from */
-    double *u, *x, *pdf, *f, *p, *y, *pair, *row;
+    double *u, *apart, *pdf, *f, *p, *y, *pair, *row;
+    const double *x; /* the points of the block: in u or in apart */
     buffon_priv_moments *moments; /* [series] */
     buffon_priv_cells whole, tail;
     /* The first failure, if status < 0. */
