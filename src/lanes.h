@@ -9,8 +9,7 @@
  *     lanes_load(p, m), lanes_store(p, v, m)   m lanes of memory; lanes from m on are the last one
  *     lanes_bits(v), lanes_double(w)  the bits of doubles, and back
  *     lanes_less(a, b), lanes_less_equal(a, b), lanes_equal(a, b), lanes_odd(w)
- *     lanes_and(m, k), lanes_or(m, k), lanes_any(m)   the last an int: whether any lane is true
- *     lanes_every(m)                  1 if m holds in all lanes, else 0
+ *     lanes_and(m, k), lanes_or(m, k), lanes_any(m), lanes_every(m)   the last two are ints
  *     lanes_pick(m, a, b)             m ? a : b
  *     lanes_min(a, b), lanes_max(a, b)   a < b ? a : b,  a > b ? a : b
  *     lanes_abs(v), lanes_copysign(v, s), lanes_sqrt(v)
@@ -214,21 +213,6 @@ LANES_INLINE lanes_m lanes_or(lanes_m m, lanes_m k)
 #endif
 }
 
-LANES_INLINE int lanes_every(lanes_m m)
-{
-#if LANES_WIDTH == 1
-    return m;
-#elif LANES_WIDTH == 8
-    return m == 0xff;
-#elif LANES_WIDTH == 4
-    return _mm256_movemask_pd((__m256d)m) == 0xf;
-#elif LEVELS_HAVE_X86
-    return _mm_movemask_pd((__m128d)m) == 0x3;
-#else
-    return (m[0] & m[1]) != 0;
-#endif
-}
-
 LANES_INLINE int lanes_any(lanes_m m)
 {
 #if LANES_WIDTH == 4
@@ -237,6 +221,21 @@ LANES_INLINE int lanes_any(lanes_m m)
     return _mm_movemask_pd((__m128d)m) != 0;
 #elif LANES_WIDTH == 2
     return (m[0] | m[1]) != 0;
+#else
+    return m != 0;
+#endif
+}
+
+LANES_INLINE int lanes_every(lanes_m m)
+{
+#if LANES_WIDTH == 8
+    return m == 0xff;
+#elif LANES_WIDTH == 4
+    return _mm256_movemask_pd((__m256d)m) == 0xf;
+#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
+    return _mm_movemask_pd((__m128d)m) == 0x3;
+#elif LANES_WIDTH == 2
+    return (m[0] & m[1]) != 0;
 #else
     return m != 0;
 #endif

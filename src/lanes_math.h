@@ -1,24 +1,20 @@
-/* Private. Elementary functions of lanes: included by levels.h after lanes.h,
- * once for each level. One lane of them is the scalar function of the same name
- * in elementary.h, which states its accuracy.
+/* Private. Elementary functions of lanes: included by levels.h after lanes.h, once for each level.
+ * One lane of them is the scalar function of the same name in elementary.h, which states its
+ * accuracy.
  *
- * Each one reduces its argument exactly or with a compensated remainder,
- * evaluates a polynomial, and puts the result together so that only the last
- * step rounds at full size.
+ * Each one reduces its argument exactly or with a compensated remainder, evaluates a polynomial, and
+ * puts the result together so that only the last step rounds at full size.
  *
- * What only special values need is left out where no lane has one: `plain`. A
- * lane gets the same bits either way, and the branch is one that processors
- * foresee.
+ * What only special values need is left out where no lane has one: `plain`. A lane gets the same
+ * bits either way, and the branch is one that processors foresee.
  *
- * The polynomials interpolate the named function at Chebyshev nodes of the
- * reduced interval (near-minimax), in 60 digits, and were then rounded; their
- * error is stated beside each.
+ * The polynomials interpolate the named function at Chebyshev nodes of the reduced interval
+ * (near-minimax), in 60 digits, and were then rounded; their error is stated beside each.
  */
 #ifndef LANES_MATH_CONSTANTS
 #define LANES_MATH_CONSTANTS
 
-#define LANES_SHIFT                                                            \
-  0x1.8p52 /* added, it rounds to a whole number in the low bits */
+#define LANES_SHIFT 0x1.8p52 /* added, it rounds to a whole number in the low bits */
 #define LANES_SHIFT_BITS UINT64_C(0x4338000000000000)
 #define LANES_INF buffon_priv_from_bits(UINT64_C(0x7ff0000000000000))
 #define LANES_NAN buffon_priv_from_bits(UINT64_C(0x7ff8000000000000))
@@ -28,422 +24,399 @@
 #define LANES_LN2_HI 0x1.62e42feep-1
 #define LANES_LN2_LO 0x1.a39ef35793c76p-33
 
-#define LANES_NORMAL_MIDDLE                                                    \
-  0.425                /* |u - 1/2| up to which the middle function holds */
-#define LANES_TILE 256 /* numbers at a time in functions of whole arrays */
+#define LANES_NORMAL_MIDDLE 0.425 /* |u - 1/2| up to which the middle function holds */
+#define LANES_TILE 256            /* numbers at a time in functions of whole arrays */
 
 #endif
 
 /* 2^k for whole k in -1022 .. 1023, as two's complement. */
-LANES_INLINE lanes_d LANES(power2)(lanes_u k) {
-  return lanes_double((k + 1023) << 52);
+LANES_INLINE lanes_d LANES(power2)(lanes_u k)
+{
+    return lanes_double((k + 1023) << 52);
 }
 
-/* y 2^k for y near 1 and |k| < 2000, rounded once: the first product is exact.
- */
-LANES_INLINE lanes_d LANES(scale)(lanes_d y, lanes_u k) {
-  const lanes_u half = ((k + 4096) >> 1) - 2048;
-  return y * LANES(power2)(half) * LANES(power2)(k - half);
+/* y 2^k for y near 1 and |k| < 2000, rounded once: the first product is exact. */
+LANES_INLINE lanes_d LANES(scale)(lanes_d y, lanes_u k)
+{
+    const lanes_u half = ((k + 4096) >> 1) - 2048;
+    return y * LANES(power2)(half) * LANES(power2)(k - half);
 }
 
-/* ---- sine and cosine
- * ---------------------------------------------------------------------- */
+/* ---- sine and cosine ---------------------------------------------------------------------- */
 
-/* sin(pi r) for |r| <= 1/4: pi r + r z S(z) with z = r^2, S to 6.4e-16. The
- * product pi r would round at full size; 4 r does not round, and the rest is
- * small. */
-LANES_INLINE lanes_d LANES(sin_core)(lanes_d r) {
-  const lanes_d z = r * r;
-  const lanes_d s =
-      -0x1.4abbce625be52p+2 +
-      z * (0x1.466bc6775a476p+1 +
-           z * (-0x1.32d2cce500387p-1 +
-                z * (0x1.50783208843ebp-4 +
-                     z * (-0x1.e3027dea82bd7p-8 + z * 0x1.e4a9d9166f052p-12))));
-  return 4.0 * r + r * (-0x1.b7812aeef4b9fp-1 + z * s);
+/* sin(pi r) for |r| <= 1/4: pi r + r z S(z) with z = r^2, S to 6.4e-16. The product pi r would
+ * round at full size; 4 r does not round, and the rest is small. */
+LANES_INLINE lanes_d LANES(sin_core)(lanes_d r)
+{
+    const lanes_d z = r * r;
+    const lanes_d s = -0x1.4abbce625be52p+2 +
+                      z * (0x1.466bc6775a476p+1 +
+                           z * (-0x1.32d2cce500387p-1 +
+                                z * (0x1.50783208843ebp-4 +
+                                     z * (-0x1.e3027dea82bd7p-8 + z * 0x1.e4a9d9166f052p-12))));
+    return 4.0 * r + r * (-0x1.b7812aeef4b9fp-1 + z * s);
 }
 
 /* cos(pi r) for |r| <= 1/4: 1 - z C(z) with z = r^2, C to 2e-18. */
-LANES_INLINE lanes_d LANES(cos_core)(lanes_d r) {
-  const lanes_d z = r * r;
-  const lanes_d c = 0x1.3bd3cc9be45dep+2 +
-                    z * (-0x1.03c1f081b5ac0p+2 +
-                         z * (0x1.55d3c7e3cb241p+0 +
-                              z * (-0x1.e1f5068688d5bp-3 +
-                                   z * (0x1.a6d1eef479be1p-6 +
-                                        z * (-0x1.f9ce245cada0bp-10 +
-                                             z * 0x1.b2f3eb054afcdp-14)))));
-  return 1.0 - z * c;
+LANES_INLINE lanes_d LANES(cos_core)(lanes_d r)
+{
+    const lanes_d z = r * r;
+    const lanes_d c =
+        0x1.3bd3cc9be45dep+2 +
+        z * (-0x1.03c1f081b5ac0p+2 +
+             z * (0x1.55d3c7e3cb241p+0 +
+                  z * (-0x1.e1f5068688d5bp-3 +
+                       z * (0x1.a6d1eef479be1p-6 +
+                            z * (-0x1.f9ce245cada0bp-10 + z * 0x1.b2f3eb054afcdp-14)))));
+    return 1.0 - z * c;
 }
 
-/* sin(pi a) and cos(pi a) for |a| <= 2^20: a = n/2 + r with |r| <= 1/4, all of
- * it exact; n mod 4 turns and reflects. */
-LANES_INLINE void LANES(sincospi_near)(lanes_d *s, lanes_d *c, lanes_d a) {
-  const uint64_t sign = UINT64_C(0x8000000000000000);
-  const lanes_d shifted = 2.0 * a + LANES_SHIFT;
-  const lanes_u n = lanes_bits(shifted);
-  const lanes_d r = a - 0.5 * (shifted - LANES_SHIFT);
-  const lanes_d sine = LANES(sin_core)(r), cosine = LANES(cos_core)(r);
-  const lanes_m swap = lanes_odd(n);
-  const lanes_u turned =
-      lanes_bits(lanes_pick(swap, cosine, sine)) ^ (n << 62 & sign);
-  const lanes_u other =
-      lanes_bits(lanes_pick(swap, sine, cosine)) ^ ((n + 1) << 62 & sign);
-  *s = lanes_double(turned) + 0.0;
-  *c = lanes_double(other) + 0.0;
+/* sin(pi a) and cos(pi a) for |a| <= 2^20: a = n/2 + r with |r| <= 1/4, all of it exact; n mod 4
+ * turns and reflects. */
+LANES_INLINE void LANES(sincospi_near)(lanes_d *s, lanes_d *c, lanes_d a)
+{
+    const uint64_t sign = UINT64_C(0x8000000000000000);
+    const lanes_d shifted = 2.0 * a + LANES_SHIFT;
+    const lanes_u n = lanes_bits(shifted);
+    const lanes_d r = a - 0.5 * (shifted - LANES_SHIFT);
+    const lanes_d sine = LANES(sin_core)(r), cosine = LANES(cos_core)(r);
+    const lanes_m swap = lanes_odd(n);
+    const lanes_u turned = lanes_bits(lanes_pick(swap, cosine, sine)) ^ (n << 62 & sign);
+    const lanes_u other = lanes_bits(lanes_pick(swap, sine, cosine)) ^ ((n + 1) << 62 & sign);
+    *s = lanes_double(turned) + 0.0;
+    *c = lanes_double(other) + 0.0;
 }
 
 /* First a multiple of 2^20 is taken away; from 2^53 on every x is even. */
-LANES_INLINE void LANES(sincospi)(lanes_d *s, lanes_d *c, lanes_d x) {
-  const uint64_t sign = UINT64_C(0x8000000000000000);
-  lanes_d a = lanes_abs(x);
-  if (!lanes_every(lanes_less(a, lanes_all(0x1p20)))) {
-    a = lanes_pick(lanes_less(a, lanes_all(0x1p53)), a, a - a);
-    a -= (a + 0x1.8p72) - 0x1.8p72;
-  }
-  const lanes_d shifted = 2.0 * a + LANES_SHIFT;
-  const lanes_u n = lanes_bits(shifted);
-  const lanes_d r = a - 0.5 * (shifted - LANES_SHIFT);
-  const lanes_d sine = LANES(sin_core)(r), cosine = LANES(cos_core)(r);
-  const lanes_m swap = lanes_odd(n);
-  const lanes_u turned =
-      lanes_bits(lanes_pick(swap, cosine, sine)) ^ (n << 62 & sign);
-  const lanes_u other =
-      lanes_bits(lanes_pick(swap, sine, cosine)) ^ ((n + 1) << 62 & sign);
-  *s = lanes_double(lanes_bits(lanes_double(turned) + 0.0) ^
-                    (lanes_bits(x) & sign));
-  *c = lanes_double(other) + 0.0;
+LANES_INLINE void LANES(sincospi)(lanes_d *s, lanes_d *c, lanes_d x)
+{
+    const uint64_t sign = UINT64_C(0x8000000000000000);
+    lanes_d a = lanes_abs(x);
+    if (!lanes_every(lanes_less(a, lanes_all(0x1p20)))) {
+        a = lanes_pick(lanes_less(a, lanes_all(0x1p53)), a, a - a);
+        a -= (a + 0x1.8p72) - 0x1.8p72;
+    }
+    const lanes_d shifted = 2.0 * a + LANES_SHIFT;
+    const lanes_u n = lanes_bits(shifted);
+    const lanes_d r = a - 0.5 * (shifted - LANES_SHIFT);
+    const lanes_d sine = LANES(sin_core)(r), cosine = LANES(cos_core)(r);
+    const lanes_m swap = lanes_odd(n);
+    const lanes_u turned = lanes_bits(lanes_pick(swap, cosine, sine)) ^ (n << 62 & sign);
+    const lanes_u other = lanes_bits(lanes_pick(swap, sine, cosine)) ^ ((n + 1) << 62 & sign);
+    *s = lanes_double(lanes_bits(lanes_double(turned) + 0.0) ^ (lanes_bits(x) & sign));
+    *c = lanes_double(other) + 0.0;
 }
 
-/* ---- logarithm
- * ----------------------------------------------------------------------------
- */
+/* ---- logarithm ---------------------------------------------------------------------------- */
 
-/* With s = f / (2 + f): log(1 + f) = 2 atanh(s) = f - s (f - R) where R = z
- * P(z), z = s^2 and P is 2 atanh(s)/s less 2, over z. P to 3.2e-16 for |s| <= 3
- * - 2 sqrt(2). */
-LANES_INLINE lanes_d LANES(log_rest)(lanes_d s) {
-  const lanes_d z = s * s;
-  const lanes_d w = z * z;
-  const lanes_d even =
-      0x1.5555555555558p-1 +
-      w * (0x1.2492492df281ap-2 +
-           w * (0x1.7462b51cb66b1p-3 + w * 0x1.2b5900de53b32p-3));
-  const lanes_d odd = 0x1.99999999952d7p-2 +
-                      w * (0x1.c71c62e3f11e6p-3 + w * 0x1.39fe51a7c18f9p-3);
-  return z * (even + z * odd);
+/* With s = f / (2 + f): log(1 + f) = 2 atanh(s) = f - s (f - R) where R = z P(z), z = s^2 and P is
+ * 2 atanh(s)/s less 2, over z. P to 3.2e-16 for |s| <= 3 - 2 sqrt(2). */
+LANES_INLINE lanes_d LANES(log_rest)(lanes_d s)
+{
+    const lanes_d z = s * s;
+    const lanes_d w = z * z;
+    const lanes_d even =
+        0x1.5555555555558p-1 +
+        w * (0x1.2492492df281ap-2 + w * (0x1.7462b51cb66b1p-3 + w * 0x1.2b5900de53b32p-3));
+    const lanes_d odd =
+        0x1.99999999952d7p-2 + w * (0x1.c71c62e3f11e6p-3 + w * 0x1.39fe51a7c18f9p-3);
+    return z * (even + z * odd);
 }
 
-/* k ln 2 + log(1 + f) + c, for small c. The terms are added from the smallest
- * up; f - s (f - R) is written as f - (f^2/2 - s (f^2/2 + R)), whose first two
- * terms round less. */
-LANES_INLINE lanes_d LANES(log_core)(lanes_d k, lanes_d f, lanes_d c) {
-  const lanes_d s = f / (2.0 + f);
-  const lanes_d half = 0.5 * f * f;
-  const lanes_d low = s * (half + LANES(log_rest)(s)) + (k * LANES_LN2_LO + c);
-  return k * LANES_LN2_HI - ((half - low) - f);
+/* k ln 2 + log(1 + f) + c, for small c. The terms are added from the smallest up; f - s (f - R) is
+ * written as f - (f^2/2 - s (f^2/2 + R)), whose first two terms round less. */
+LANES_INLINE lanes_d LANES(log_core)(lanes_d k, lanes_d f, lanes_d c)
+{
+    const lanes_d s = f / (2.0 + f);
+    const lanes_d half = 0.5 * f * f;
+    const lanes_d low = s * (half + LANES(log_rest)(s)) + (k * LANES_LN2_LO + c);
+    return k * LANES_LN2_HI - ((half - low) - f);
 }
 
-/* The exponent k of a normal x = m 2^k with m in [sqrt(1/2), sqrt(2)), and m.
- * The exponent becomes a double in the low bits of 2^52. */
-LANES_INLINE lanes_d LANES(log_split)(lanes_d *m, lanes_d x) {
-  const uint64_t offset =
-      UINT64_C(0x3ff0000000000000) - UINT64_C(0x3fe6a09e667f3bcd);
-  const lanes_u bits = lanes_bits(x), biased = (bits + offset) >> 52;
-  *m = lanes_double(bits - ((biased - 1023) << 52));
-  return lanes_double(biased | UINT64_C(0x4330000000000000)) - (0x1p52 + 1023);
+/* The exponent k of a normal x = m 2^k with m in [sqrt(1/2), sqrt(2)), and m. The exponent becomes a
+ * double in the low bits of 2^52. */
+LANES_INLINE lanes_d LANES(log_split)(lanes_d *m, lanes_d x)
+{
+    const uint64_t offset = UINT64_C(0x3ff0000000000000) - UINT64_C(0x3fe6a09e667f3bcd);
+    const lanes_u bits = lanes_bits(x), biased = (bits + offset) >> 52;
+    *m = lanes_double(bits - ((biased - 1023) << 52));
+    return lanes_double(biased | UINT64_C(0x4330000000000000)) - (0x1p52 + 1023);
 }
 
-LANES_INLINE lanes_d LANES(log)(lanes_d x) {
-  const lanes_d zero = lanes_all(0), inf = lanes_all(LANES_INF);
-  const int plain = lanes_every(
-      lanes_and(lanes_less_equal(lanes_all(0x1p-1022), x), lanes_less(x, inf)));
-  lanes_d y = x, shift = zero, m, k, result;
-  if (!plain) {
-    const lanes_m subnormal = lanes_less(x, lanes_all(0x1p-1022));
-    const lanes_m positive = lanes_and(lanes_less(zero, x), lanes_less(x, inf));
-    y = lanes_pick(positive, lanes_pick(subnormal, x * 0x1p54, x),
-                   lanes_all(1));
-    shift = lanes_pick(subnormal, lanes_all(54), zero);
-  }
-  k = LANES(log_split)(&m, y) - shift;
-  result = LANES(log_core)(k, m - 1.0, zero);
-  if (!plain) {
-    result = lanes_pick(lanes_less(x, inf), result, x);
-    result = lanes_pick(lanes_equal(x, zero), -inf, result);
-    result = lanes_pick(lanes_less(x, zero), lanes_all(LANES_NAN), result);
-  }
-  return result;
+LANES_INLINE lanes_d LANES(log)(lanes_d x)
+{
+    const lanes_d zero = lanes_all(0), inf = lanes_all(LANES_INF);
+    const int plain =
+        lanes_every(lanes_and(lanes_less_equal(lanes_all(0x1p-1022), x), lanes_less(x, inf)));
+    lanes_d y = x, shift = zero, m, k, result;
+    if (!plain) {
+        const lanes_m subnormal = lanes_less(x, lanes_all(0x1p-1022));
+        const lanes_m positive = lanes_and(lanes_less(zero, x), lanes_less(x, inf));
+        y = lanes_pick(positive, lanes_pick(subnormal, x * 0x1p54, x), lanes_all(1));
+        shift = lanes_pick(subnormal, lanes_all(54), zero);
+    }
+    k = LANES(log_split)(&m, y) - shift;
+    result = LANES(log_core)(k, m - 1.0, zero);
+    if (!plain) {
+        result = lanes_pick(lanes_less(x, inf), result, x);
+        result = lanes_pick(lanes_equal(x, zero), -inf, result);
+        result = lanes_pick(lanes_less(x, zero), lanes_all(LANES_NAN), result);
+    }
+    return result;
 }
 
-/* log of u = 1 + x and of the rounding of that sum, (x - (u - 1)) / u to first
- * order; in the middle u is not used at all. */
-LANES_INLINE lanes_d LANES(log1p)(lanes_d x) {
-  const lanes_d u = 1.0 + x, zero = lanes_all(0), inf = lanes_all(LANES_INF);
-  const lanes_d lost =
-      lanes_pick(lanes_less(lanes_all(1), x), 1.0 - (u - x), x - (u - 1.0)) / u;
-  const lanes_m small = lanes_less(lanes_abs(x), lanes_all(LANES_TINY));
-  const lanes_m positive = lanes_and(lanes_less(zero, u), lanes_less(u, inf));
-  const int plain = lanes_every(positive);
-  lanes_d m, k, result;
-  lanes_m middle;
-  k = LANES(log_split)(&m, plain ? u : lanes_pick(positive, u, lanes_all(1)));
-  middle = lanes_equal(k, zero);
-  result = LANES(log_core)(k, lanes_pick(middle, x, m - 1.0),
-                           lanes_pick(middle, zero, lost));
-  result = lanes_pick(small, x, result);
-  if (!plain) {
-    result = lanes_pick(lanes_less(u, inf), result, u);
-    result = lanes_pick(lanes_equal(u, zero), -inf, result);
-    result = lanes_pick(lanes_less(u, zero), lanes_all(LANES_NAN), result);
-  }
-  return result;
+/* log of u = 1 + x and of the rounding of that sum, (x - (u - 1)) / u to first order; in the middle
+ * u is not used at all. */
+LANES_INLINE lanes_d LANES(log1p)(lanes_d x)
+{
+    const lanes_d u = 1.0 + x, zero = lanes_all(0), inf = lanes_all(LANES_INF);
+    const lanes_d lost = lanes_pick(lanes_less(lanes_all(1), x), 1.0 - (u - x), x - (u - 1.0)) / u;
+    const lanes_m small = lanes_less(lanes_abs(x), lanes_all(LANES_TINY));
+    const lanes_m positive = lanes_and(lanes_less(zero, u), lanes_less(u, inf));
+    const int plain = lanes_every(positive);
+    lanes_d m, k, result;
+    lanes_m middle;
+    k = LANES(log_split)(&m, plain ? u : lanes_pick(positive, u, lanes_all(1)));
+    middle = lanes_equal(k, zero);
+    result = LANES(log_core)(k, lanes_pick(middle, x, m - 1.0), lanes_pick(middle, zero, lost));
+    result = lanes_pick(small, x, result);
+    if (!plain) {
+        result = lanes_pick(lanes_less(u, inf), result, u);
+        result = lanes_pick(lanes_equal(u, zero), -inf, result);
+        result = lanes_pick(lanes_less(u, zero), lanes_all(LANES_NAN), result);
+    }
+    return result;
 }
 
-/* ---- exponential
- * -------------------------------------------------------------------------- */
+/* ---- exponential -------------------------------------------------------------------------- */
 
-/* x = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r
- * and k. x is in the range of the exponents. The polynomial is (exp(r) - 1 - r)
- * / r^2, to 1.1e-16. */
-LANES_INLINE lanes_d LANES(exp_core)(lanes_d *r, lanes_u *k, lanes_d x) {
-  const lanes_d shifted = x * 0x1.71547652b82fep+0 + LANES_SHIFT;
-  const lanes_d n = shifted - LANES_SHIFT;
-  const lanes_d high = x - n * LANES_LN2_HI;
-  const lanes_d tail = n * LANES_LN2_LO;
-  const lanes_d y = high - tail;
-  const lanes_d low = (high - y) - tail;
-  const lanes_d p =
-      0x1.0000000000001p-1 +
-      y * (0x1.5555555555556p-3 +
-           y * (0x1.5555555553d56p-5 +
-                y * (0x1.11111111109afp-7 +
-                     y * (0x1.6c16c17890eb4p-10 +
-                          y * (0x1.a01a01a7c73c0p-13 +
-                               y * (0x1.a019b8f9792eep-16 +
-                                    y * (0x1.71de0da24602dp-19 +
-                                         y * (0x1.28919ccaf9211p-22 +
-                                              y * 0x1.af38c67fbb53ep-26))))))));
-  *r = y;
-  *k = lanes_bits(shifted) - LANES_SHIFT_BITS;
-  return y * y * p + low;
+/* x = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r and k. x is in the
+ * range of the exponents. The polynomial is (exp(r) - 1 - r) / r^2, to 1.1e-16. */
+LANES_INLINE lanes_d LANES(exp_core)(lanes_d *r, lanes_u *k, lanes_d x)
+{
+    const lanes_d shifted = x * 0x1.71547652b82fep+0 + LANES_SHIFT;
+    const lanes_d n = shifted - LANES_SHIFT;
+    const lanes_d high = x - n * LANES_LN2_HI;
+    const lanes_d tail = n * LANES_LN2_LO;
+    const lanes_d y = high - tail;
+    const lanes_d low = (high - y) - tail;
+    const lanes_d p = 0x1.0000000000001p-1 +
+                      y * (0x1.5555555555556p-3 +
+                           y * (0x1.5555555553d56p-5 +
+                                y * (0x1.11111111109afp-7 +
+                                     y * (0x1.6c16c17890eb4p-10 +
+                                          y * (0x1.a01a01a7c73c0p-13 +
+                                               y * (0x1.a019b8f9792eep-16 +
+                                                    y * (0x1.71de0da24602dp-19 +
+                                                         y * (0x1.28919ccaf9211p-22 +
+                                                              y * 0x1.af38c67fbb53ep-26))))))));
+    *r = y;
+    *k = lanes_bits(shifted) - LANES_SHIFT_BITS;
+    return y * y * p + low;
 }
 
-LANES_INLINE lanes_d LANES(exp)(lanes_d x) {
-  const int plain = lanes_every(lanes_less(lanes_abs(x), lanes_all(708)));
-  const lanes_d y =
-      plain ? x : lanes_min(lanes_max(x, lanes_all(-750)), lanes_all(710));
-  lanes_d r, rest;
-  lanes_u k;
-  rest = LANES(exp_core)(&r, &k, y);
-  if (plain)
-    return (1.0 + (r + rest)) * LANES(power2)(k);
-  return lanes_pick(lanes_equal(x, x), LANES(scale)(1.0 + (r + rest), k), x);
+LANES_INLINE lanes_d LANES(exp)(lanes_d x)
+{
+    const int plain = lanes_every(lanes_less(lanes_abs(x), lanes_all(708)));
+    const lanes_d y = plain ? x : lanes_min(lanes_max(x, lanes_all(-750)), lanes_all(710));
+    lanes_d r, rest;
+    lanes_u k;
+    rest = LANES(exp_core)(&r, &k, y);
+    if (plain)
+        return (1.0 + (r + rest)) * LANES(power2)(k);
+    return lanes_pick(lanes_equal(x, x), LANES(scale)(1.0 + (r + rest), k), x);
 }
 
 /* 2^k ((1 - 2^-k) + r + rest), where the first sum is exact in two parts. */
-LANES_INLINE lanes_d LANES(expm1)(lanes_d x) {
-  const lanes_d size = lanes_abs(x);
-  const int plain =
-      lanes_every(lanes_and(lanes_less_equal(lanes_all(LANES_TINY), size),
-                            lanes_less(size, lanes_all(44))));
-  const lanes_d y =
-      plain ? x : lanes_min(lanes_max(x, lanes_all(-44)), lanes_all(710));
-  lanes_d r, rest, inverse, first, sum, result;
-  lanes_u k;
-  rest = LANES(exp_core)(&r, &k, y);
-  inverse = LANES(power2)(0 - k);
-  if (!plain) /* from 2^1000 on the 1 is long gone */
-    inverse = lanes_pick(lanes_less(y, lanes_all(690)), inverse,
-                         lanes_all(0x1p-1000));
-  first = 1.0 - inverse;
-  sum = first + r;
-  sum += (r - (sum - first)) + rest;
-  if (plain)
-    return sum * LANES(power2)(k);
-  result = LANES(scale)(sum, k);
-  result = lanes_pick(lanes_less(size, lanes_all(LANES_TINY)), x, result);
-  return lanes_pick(lanes_equal(x, x), result, x);
+LANES_INLINE lanes_d LANES(expm1)(lanes_d x)
+{
+    const lanes_d size = lanes_abs(x);
+    const int plain = lanes_every(
+        lanes_and(lanes_less_equal(lanes_all(LANES_TINY), size), lanes_less(size, lanes_all(44))));
+    const lanes_d y = plain ? x : lanes_min(lanes_max(x, lanes_all(-44)), lanes_all(710));
+    lanes_d r, rest, inverse, first, sum, result;
+    lanes_u k;
+    rest = LANES(exp_core)(&r, &k, y);
+    inverse = LANES(power2)(0 - k);
+    if (!plain) /* from 2^1000 on the 1 is long gone */
+        inverse = lanes_pick(lanes_less(y, lanes_all(690)), inverse, lanes_all(0x1p-1000));
+    first = 1.0 - inverse;
+    sum = first + r;
+    sum += (r - (sum - first)) + rest;
+    if (plain)
+        return sum * LANES(power2)(k);
+    result = LANES(scale)(sum, k);
+    result = lanes_pick(lanes_less(size, lanes_all(LANES_TINY)), x, result);
+    return lanes_pick(lanes_equal(x, x), result, x);
 }
 
-/* ---- angle
- * --------------------------------------------------------------------------------
- */
+/* ---- angle -------------------------------------------------------------------------------- */
 
-/* atan(t)/pi for |t| <= tan(pi/8): t/pi + t z A(z) with z = t^2, A to 1e-17.
- * Here t/4 is exact. */
-LANES_INLINE lanes_d LANES(atan_core)(lanes_d t) {
-  const lanes_d z = t * t;
-  const lanes_d w = z * z;
-  const lanes_d even =
-      -0x1.b2995e7b7b603p-4 +
-      w * (-0x1.7483758df44fdp-5 +
-           w * (-0x1.da1b9d74cf8f6p-6 +
-                w * (-0x1.5b911bdea8714p-6 +
-                     w * (-0x1.0936b10a12bebp-6 + w * -0x1.9003719c7c540p-8))));
-  const lanes_d odd =
-      0x1.04c26be3b02cbp-4 +
-      w * (0x1.21bb94285b332p-5 +
-           w * (0x1.91297263b094bp-6 +
-                w * (0x1.31835c828f87ap-6 + w * 0x1.99303bd9db106p-7)));
-  return 0.25 * t + t * (0x1.17cc1b727220bp-4 + z * (even + z * odd));
+/* atan(t)/pi for |t| <= tan(pi/8): t/pi + t z A(z) with z = t^2, A to 1e-17. Here t/4 is exact. */
+LANES_INLINE lanes_d LANES(atan_core)(lanes_d t)
+{
+    const lanes_d z = t * t;
+    const lanes_d w = z * z;
+    const lanes_d even = -0x1.b2995e7b7b603p-4 +
+                         w * (-0x1.7483758df44fdp-5 +
+                              w * (-0x1.da1b9d74cf8f6p-6 +
+                                   w * (-0x1.5b911bdea8714p-6 +
+                                        w * (-0x1.0936b10a12bebp-6 + w * -0x1.9003719c7c540p-8))));
+    const lanes_d odd =
+        0x1.04c26be3b02cbp-4 +
+        w * (0x1.21bb94285b332p-5 +
+             w * (0x1.91297263b094bp-6 + w * (0x1.31835c828f87ap-6 + w * 0x1.99303bd9db106p-7)));
+    return 0.25 * t + t * (0x1.17cc1b727220bp-4 + z * (even + z * odd));
 }
 
-/* The first octant by t = low / high; above tan(pi/8) its distance from 1/4 by
- * (t - 1)/(t + 1). The other octants are reflections, all about exact numbers.
- * Of zeros and infinities only equal pairs need care, and where low + high
- * overflows both are halved. */
-LANES_INLINE lanes_d LANES(atan2pi)(lanes_d y, lanes_d x) {
-  const lanes_d ax = lanes_abs(x), ay = lanes_abs(y), zero = lanes_all(0),
-                one = lanes_all(1);
-  const int plain = lanes_every(lanes_and(
-      lanes_less(zero, ax + ay), lanes_less(ax + ay, lanes_all(0x1p1000))));
-  lanes_d high = lanes_max(ax, ay), low = lanes_min(ax, ay), t, turned, angle;
-  lanes_m far;
-  if (!plain) {
-    const lanes_m equal = lanes_equal(ax, ay);
-    low = lanes_pick(equal, lanes_pick(lanes_equal(ax, zero), zero, one), low);
-    high = lanes_pick(equal, one, high);
-  }
-  t = low / high;
-  far = lanes_less(lanes_all(0x1.a827999fcef32p-2), t);
-  if (!plain) {
-    const lanes_d scale =
-        lanes_pick(lanes_less(lanes_all(0x1p1000), high), lanes_all(0.5), one);
-    low *= scale;
-    high *= scale;
-  }
-  turned = (low - high) / (low + high);
-  angle = lanes_pick(far, lanes_all(0.25), zero) +
-          LANES(atan_core)(lanes_pick(far, turned, t));
-  angle = lanes_pick(lanes_less(ax, ay), 0.5 - angle, angle);
-  angle =
-      lanes_pick(lanes_less(lanes_copysign(one, x), zero), 1.0 - angle, angle);
-  if (!plain) {
-    const lanes_m numbers = lanes_and(lanes_equal(x, x), lanes_equal(y, y));
-    angle = lanes_pick(numbers, angle, lanes_all(LANES_NAN));
-  }
-  return lanes_copysign(angle, y);
+/* The first octant by t = low / high; above tan(pi/8) its distance from 1/4 by (t - 1)/(t + 1). The
+ * other octants are reflections, all about exact numbers. Of zeros and infinities only equal pairs
+ * need care, and where low + high overflows both are halved. */
+LANES_INLINE lanes_d LANES(atan2pi)(lanes_d y, lanes_d x)
+{
+    const lanes_d ax = lanes_abs(x), ay = lanes_abs(y), zero = lanes_all(0), one = lanes_all(1);
+    const int plain =
+        lanes_every(lanes_and(lanes_less(zero, ax + ay), lanes_less(ax + ay, lanes_all(0x1p1000))));
+    lanes_d high = lanes_max(ax, ay), low = lanes_min(ax, ay), t, turned, angle;
+    lanes_m far;
+    if (!plain) {
+        const lanes_m equal = lanes_equal(ax, ay);
+        low = lanes_pick(equal, lanes_pick(lanes_equal(ax, zero), zero, one), low);
+        high = lanes_pick(equal, one, high);
+    }
+    t = low / high;
+    far = lanes_less(lanes_all(0x1.a827999fcef32p-2), t);
+    if (!plain) {
+        const lanes_d scale =
+            lanes_pick(lanes_less(lanes_all(0x1p1000), high), lanes_all(0.5), one);
+        low *= scale;
+        high *= scale;
+    }
+    turned = (low - high) / (low + high);
+    angle = lanes_pick(far, lanes_all(0.25), zero) + LANES(atan_core)(lanes_pick(far, turned, t));
+    angle = lanes_pick(lanes_less(ax, ay), 0.5 - angle, angle);
+    angle = lanes_pick(lanes_less(lanes_copysign(one, x), zero), 1.0 - angle, angle);
+    if (!plain) {
+        const lanes_m numbers = lanes_and(lanes_equal(x, x), lanes_equal(y, y));
+        angle = lanes_pick(numbers, angle, lanes_all(LANES_NAN));
+    }
+    return lanes_copysign(angle, y);
 }
 
-/* ---- normal quantile
- * ---------------------------------------------------------------------- */
+/* ---- normal quantile ---------------------------------------------------------------------- */
 
-/* M. Wichura (1988), Algorithm AS 241: the percentage points of the normal
- * distribution, Applied Statistics 37. Three rational functions of degree 7,
- * PPND16 there: of q = u - 1/2 in the middle, of sqrt(-log p) in the tails. The
- * numbers are those of the paper. They hold for every p that is a double,
- * subnormals too. */
+/* M. Wichura (1988), Algorithm AS 241: the percentage points of the normal distribution, Applied
+ * Statistics 37. Three rational functions of degree 7, PPND16 there: of q = u - 1/2 in the middle,
+ * of sqrt(-log p) in the tails. The numbers are those of the paper. They hold for every p that is a
+ * double, subnormals too. */
 
 /* The quantile of 1/2 + q, |q| <= LANES_NORMAL_MIDDLE. */
-LANES_INLINE lanes_d LANES(normal_middle)(lanes_d q) {
-  const lanes_d r = 0.180625 - q * q;
-  const lanes_d above =
-      3.3871328727963666080e+0 +
-      r * (1.3314166789178437745e+2 +
-           r * (1.9715909503065514427e+3 +
-                r * (1.3731693765509461125e+4 +
-                     r * (4.5921953931549871457e+4 +
-                          r * (6.7265770927008700853e+4 +
-                               r * (3.3430575583588128105e+4 +
-                                    r * 2.5090809287301226727e+3))))));
-  const lanes_d below =
-      1.0 + r * (4.2313330701600911252e+1 +
-                 r * (6.8718700749205790830e+2 +
-                      r * (5.3941960214247511077e+3 +
-                           r * (2.1213794301586595867e+4 +
-                                r * (3.9307895800092710610e+4 +
-                                     r * (2.8729085735721942674e+4 +
-                                          r * 5.2264952788528545610e+3))))));
-  return q * above / below;
+LANES_INLINE lanes_d LANES(normal_middle)(lanes_d q)
+{
+    const lanes_d r = 0.180625 - q * q;
+    const lanes_d above =
+        3.3871328727963666080e+0 +
+        r * (1.3314166789178437745e+2 +
+             r * (1.9715909503065514427e+3 +
+                  r * (1.3731693765509461125e+4 +
+                       r * (4.5921953931549871457e+4 +
+                            r * (6.7265770927008700853e+4 +
+                                 r * (3.3430575583588128105e+4 + r * 2.5090809287301226727e+3))))));
+    const lanes_d below =
+        1.0 +
+        r * (4.2313330701600911252e+1 +
+             r * (6.8718700749205790830e+2 +
+                  r * (5.3941960214247511077e+3 +
+                       r * (2.1213794301586595867e+4 +
+                            r * (3.9307895800092710610e+4 +
+                                 r * (2.8729085735721942674e+4 + r * 5.2264952788528545610e+3))))));
+    return q * above / below;
 }
 
 /* The same for sqrt(-log p) = 1.6 + r up to 5. */
-LANES_INLINE lanes_d LANES(normal_near)(lanes_d r) {
-  const lanes_d above =
-      1.42343711074968357734e+0 +
-      r * (4.63033784615654529590e+0 +
-           r * (5.76949722146069140550e+0 +
-                r * (3.64784832476320460504e+0 +
-                     r * (1.27045825245236838258e+0 +
-                          r * (2.41780725177450611770e-1 +
-                               r * (2.27238449892691845833e-2 +
-                                    r * 7.74545014278341407640e-4))))));
-  const lanes_d below =
-      1.0 + r * (2.05319162663775882187e+0 +
-                 r * (1.67638483018380384940e+0 +
-                      r * (6.89767334985100004550e-1 +
-                           r * (1.48103976427480074590e-1 +
-                                r * (1.51986665636164571966e-2 +
-                                     r * (5.47593808499534494600e-4 +
-                                          r * 1.05075007164441684324e-9))))));
-  return above / below;
+LANES_INLINE lanes_d LANES(normal_near)(lanes_d r)
+{
+    const lanes_d above = 1.42343711074968357734e+0 +
+                          r * (4.63033784615654529590e+0 +
+                               r * (5.76949722146069140550e+0 +
+                                    r * (3.64784832476320460504e+0 +
+                                         r * (1.27045825245236838258e+0 +
+                                              r * (2.41780725177450611770e-1 +
+                                                   r * (2.27238449892691845833e-2 +
+                                                        r * 7.74545014278341407640e-4))))));
+    const lanes_d below = 1.0 + r * (2.05319162663775882187e+0 +
+                                     r * (1.67638483018380384940e+0 +
+                                          r * (6.89767334985100004550e-1 +
+                                               r * (1.48103976427480074590e-1 +
+                                                    r * (1.51986665636164571966e-2 +
+                                                         r * (5.47593808499534494600e-4 +
+                                                              r * 1.05075007164441684324e-9))))));
+    return above / below;
 }
 
 /* The same for sqrt(-log p) = 5 + r up to 28. */
-LANES_INLINE lanes_d LANES(normal_far)(lanes_d r) {
-  const lanes_d above =
-      6.65790464350110377720e+0 +
-      r * (5.46378491116411436990e+0 +
-           r * (1.78482653991729133580e+0 +
-                r * (2.96560571828504891230e-1 +
-                     r * (2.65321895265761230930e-2 +
-                          r * (1.24266094738807843860e-3 +
-                               r * (2.71155556874348757815e-5 +
-                                    r * 2.01033439929228813265e-7))))));
-  const lanes_d below =
-      1.0 + r * (5.99832206555887937690e-1 +
-                 r * (1.36929880922735805310e-1 +
-                      r * (1.48753612908506148525e-2 +
-                           r * (7.86869131145613259100e-4 +
-                                r * (1.84631831751005468180e-5 +
-                                     r * (1.42151175831644588870e-7 +
-                                          r * 2.04426310338993978564e-15))))));
-  return above / below;
+LANES_INLINE lanes_d LANES(normal_far)(lanes_d r)
+{
+    const lanes_d above = 6.65790464350110377720e+0 +
+                          r * (5.46378491116411436990e+0 +
+                               r * (1.78482653991729133580e+0 +
+                                    r * (2.96560571828504891230e-1 +
+                                         r * (2.65321895265761230930e-2 +
+                                              r * (1.24266094738807843860e-3 +
+                                                   r * (2.71155556874348757815e-5 +
+                                                        r * 2.01033439929228813265e-7))))));
+    const lanes_d below = 1.0 + r * (5.99832206555887937690e-1 +
+                                     r * (1.36929880922735805310e-1 +
+                                          r * (1.48753612908506148525e-2 +
+                                               r * (7.86869131145613259100e-4 +
+                                                    r * (1.84631831751005468180e-5 +
+                                                         r * (1.42151175831644588870e-7 +
+                                                              r * 2.04426310338993978564e-15))))));
+    return above / below;
 }
 
 /* z with P(Z > z) = p, for p up to 1/2 - LANES_NORMAL_MIDDLE. */
-LANES_INLINE lanes_d LANES(normal_tail)(lanes_d p) {
-  const lanes_d r = lanes_sqrt(-LANES(log)(p));
-  const lanes_m near = lanes_less_equal(r, lanes_all(5));
-  lanes_d z = LANES(normal_near)(r - 1.6);
-  if (!lanes_every(near))
-    z = lanes_pick(near, z, LANES(normal_far)(r - 5.0));
-  return lanes_pick(lanes_equal(p, lanes_all(0)), r, z);
+LANES_INLINE lanes_d LANES(normal_tail)(lanes_d p)
+{
+    const lanes_d r = lanes_sqrt(-LANES(log)(p));
+    const lanes_m near = lanes_less_equal(r, lanes_all(5));
+    lanes_d z = LANES(normal_near)(r - 1.6);
+    if (!lanes_every(near))
+        z = lanes_pick(near, z, LANES(normal_far)(r - 5.0));
+    return lanes_pick(lanes_equal(p, lanes_all(0)), r, z);
 }
 
 /* The quantile of u outside the middle. */
-LANES_INLINE lanes_d LANES(normal_outer)(lanes_d u) {
-  const lanes_m below = lanes_less(u, lanes_all(0.5));
-  const lanes_d z = LANES(normal_tail)(lanes_pick(below, u, 1.0 - u));
-  return lanes_pick(below, -z, z);
+LANES_INLINE lanes_d LANES(normal_outer)(lanes_d u)
+{
+    const lanes_m below = lanes_less(u, lanes_all(0.5));
+    const lanes_d z = LANES(normal_tail)(lanes_pick(below, u, 1.0 - u));
+    return lanes_pick(below, -z, z);
 }
 
-/* The quantiles of u[n]; z may be u. The tails are 15 % of uniforms, but most
- * vectors would have one: they are gathered, computed side by side and put
- * back. */
-static inline void LANES(normal_quantiles)(double *z, const double *u,
-                                           size_t n) {
-  double outer[LANES_TILE];
-  uint16_t at[LANES_TILE];
-  for (size_t start = 0; start < n; start += LANES_TILE) {
-    const size_t m = n - start < LANES_TILE ? n - start : LANES_TILE;
-    size_t tails = 0;
-    for (size_t i = 0; i < m; i++) {
-      outer[tails] = u[start + i];
-      at[tails] = (uint16_t)i;
-      tails +=
-          buffon_priv_abs(u[start + i] - 0.5) <= LANES_NORMAL_MIDDLE ? 0 : 1;
+/* The quantiles of u[n]; z may be u. The tails are 15 % of uniforms, but most vectors would have
+ * one: they are gathered, computed side by side and put back. */
+static inline void LANES(normal_quantiles)(double *z, const double *u, size_t n)
+{
+    double outer[LANES_TILE];
+    uint16_t at[LANES_TILE];
+    for (size_t start = 0; start < n; start += LANES_TILE) {
+        const size_t m = n - start < LANES_TILE ? n - start : LANES_TILE;
+        size_t tails = 0;
+        for (size_t i = 0; i < m; i++) {
+            outer[tails] = u[start + i];
+            at[tails] = (uint16_t)i;
+            tails += buffon_priv_abs(u[start + i] - 0.5) <= LANES_NORMAL_MIDDLE ? 0 : 1;
+        }
+        for (size_t i = 0; i < m; i += LANES_WIDTH) {
+            const lanes_d q = lanes_load(u + start + i, m - i) - 0.5;
+            lanes_store(z + start + i, LANES(normal_middle)(q), m - i);
+        }
+        for (size_t i = 0; i < tails; i += LANES_WIDTH) {
+            const lanes_d v = lanes_load(outer + i, tails - i);
+            lanes_store(outer + i, LANES(normal_outer)(v), tails - i);
+        }
+        for (size_t i = 0; i < tails; i++)
+            z[start + at[i]] = outer[i];
     }
-    for (size_t i = 0; i < m; i += LANES_WIDTH) {
-      const lanes_d q = lanes_load(u + start + i, m - i) - 0.5;
-      lanes_store(z + start + i, LANES(normal_middle)(q), m - i);
-    }
-    for (size_t i = 0; i < tails; i += LANES_WIDTH) {
-      const lanes_d v = lanes_load(outer + i, tails - i);
-      lanes_store(outer + i, LANES(normal_outer)(v), tails - i);
-    }
-    for (size_t i = 0; i < tails; i++)
-      z[start + at[i]] = outer[i];
-  }
 }

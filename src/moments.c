@@ -35,17 +35,35 @@ static inline double moments_greater(double a, double b)
     return a > b ? a : b;
 }
 
-/* 16 lanes to one number. */
+/* 16 lanes to one number: the upper half to the lower, and again. */
 static double moments_fold(const double *lane)
 {
-    double t[MOMENTS_LANES];
-    for (int i = 0; i < MOMENTS_LANES; i++)
-        t[i] = lane[i];
-    for (int width = MOMENTS_LANES / 2; width > 0; width /= 2) {
-        for (int i = 0; i < width; i++)
-            t[i] += t[i + width];
-    }
-    return t[0];
+    double t[8];
+    for (int i = 0; i < 8; i++)
+        t[i] = lane[i] + lane[i + 8];
+    for (int i = 0; i < 4; i++)
+        t[i] += t[i + 4];
+    return (t[0] + t[2]) + (t[1] + t[3]);
+}
+
+static double moments_least(const double *lane)
+{
+    double t[8];
+    for (int i = 0; i < 8; i++)
+        t[i] = moments_lesser(lane[i], lane[i + 8]);
+    for (int i = 0; i < 4; i++)
+        t[i] = moments_lesser(t[i], t[i + 4]);
+    return moments_lesser(moments_lesser(t[0], t[2]), moments_lesser(t[1], t[3]));
+}
+
+static double moments_most(const double *lane)
+{
+    double t[8];
+    for (int i = 0; i < 8; i++)
+        t[i] = moments_greater(lane[i], lane[i + 8]);
+    for (int i = 0; i < 4; i++)
+        t[i] = moments_greater(t[i], t[i + 4]);
+    return moments_greater(moments_greater(t[0], t[2]), moments_greater(t[1], t[3]));
 }
 
 /* The values themselves, or their multiples by `scale` in the buffer. */
@@ -83,9 +101,11 @@ static void moments_about(buffon_priv_moments *out, const double *y, size_t n, d
                           double scale)
 {
     double buffer[MOMENTS_CHUNK];
-    moments_lanes t = {.r = {0}};
-    for (size_t l = 0; l < MOMENTS_LANES; l++)
+    moments_lanes t;
+    for (size_t l = 0; l < MOMENTS_LANES; l++) {
+        t.r[l] = t.q[l] = 0;
         t.min[l] = t.max[l] = y[0] * scale;
+    }
     for (size_t i = 0; i < n; i += MOMENTS_CHUNK) {
         size_t length = n - i < MOMENTS_CHUNK ? n - i : MOMENTS_CHUNK;
         moments_chunk(&t, moments_view(buffer, y + i, length, scale), length, m);
@@ -93,12 +113,8 @@ static void moments_about(buffon_priv_moments *out, const double *y, size_t n, d
     out->m = m;
     out->r = moments_fold(t.r);
     out->q = moments_fold(t.q);
-    out->min = t.min[0];
-    out->max = t.max[0];
-    for (size_t l = 1; l < MOMENTS_LANES; l++) {
-        out->min = moments_lesser(out->min, t.min[l]);
-        out->max = moments_greater(out->max, t.max[l]);
-    }
+    out->min = moments_least(t.min);
+    out->max = moments_most(t.max);
 }
 
 /* The first value serves as m. Where it is within two standard deviations of the mean, as it mostly

@@ -11,6 +11,9 @@
 #include "engine.h"
 #include "options.h"
 
+#define KERNELS "rejection_lanes.h"
+#include "levels.h"
+
 /* y = 1 where the point (x, v height) is under the curve. A value that is not finite is passed on.
  */
 static buffon_status rejection_weigh(double *y, size_t *bad, const buffon_priv_batch *batch,
@@ -20,12 +23,14 @@ static buffon_status rejection_weigh(double *y, size_t *bad, const buffon_priv_b
     const size_t n = batch->n, components = f->components > 0 ? f->components : 1;
     const double height = problem->param;
     /* v height must not be rounded to a few subnormal steps. */
-    const double scale = height < 0x1p-900 ? 0x1p900 : 1, top = scale * height;
+    const double scale = height < 0x1p-900 ? 0x1p900 : 1;
     size_t lowest = n;
     for (size_t k = 0; k < components; k++) {
-        for (size_t i = 0; i < n; i++) {
+        int fits;
+        LEVELS_RUN(rejection_hits,
+                   (&fits, y + k * n, batch->f + k * n, batch->extra, n, height, scale));
+        for (size_t i = 0; !fits && i < n; i++) {
             const double value = batch->f[k * n + i];
-            y[k * n + i] = batch->extra[i] * top < scale * value ? 1 : 0;
             if (value >= 0 && value <= height)
                 continue;
             if (value - value != 0)

@@ -40,6 +40,9 @@ int buffon_priv_ratio(double *y, double f, double pdf, size_t i, const buffon_pr
     return pdf > 0 && pdf < INFINITY ? 0 : -1;
 }
 
+#define KERNELS "weigh_lanes.h"
+#include "levels.h"
+
 buffon_status buffon_priv_weigh_ratio(double *y, size_t *bad, const buffon_priv_batch *batch,
                                       const buffon_priv_problem *problem)
 {
@@ -47,7 +50,9 @@ buffon_status buffon_priv_weigh_ratio(double *y, size_t *bad, const buffon_priv_
     const size_t n = batch->n, components = f->components > 0 ? f->components : 1;
     size_t lowest = n;
     for (size_t k = 0; k < components; k++) {
-        for (size_t i = 0; i < n; i++) {
+        size_t i;
+        LEVELS_RUN(weigh_divide, (&i, y + k * n, batch->f + k * n, batch->pdf, n));
+        for (; i < n; i++) {
             const size_t at = k * n + i;
             if (buffon_priv_ratio(&y[at], batch->f[at], batch->pdf[i], i, batch) != 0 && i < lowest)
                 lowest = i;
