@@ -96,15 +96,8 @@ LANES_INLINE void LANES(sincospi)(lanes_d *s, lanes_d *c, lanes_d x)
         a = lanes_pick(lanes_less(a, lanes_all(0x1p53)), a, a - a);
         a -= (a + 0x1.8p72) - 0x1.8p72;
     }
-    const lanes_d shifted = 2.0 * a + LANES_SHIFT;
-    const lanes_u n = lanes_bits(shifted);
-    const lanes_d r = a - 0.5 * (shifted - LANES_SHIFT);
-    const lanes_d sine = LANES(sin_core)(r), cosine = LANES(cos_core)(r);
-    const lanes_m swap = lanes_odd(n);
-    const lanes_u turned = lanes_bits(lanes_pick(swap, cosine, sine)) ^ (n << 62 & sign);
-    const lanes_u other = lanes_bits(lanes_pick(swap, sine, cosine)) ^ ((n + 1) << 62 & sign);
-    *s = lanes_double(lanes_bits(lanes_double(turned) + 0.0) ^ (lanes_bits(x) & sign));
-    *c = lanes_double(other) + 0.0;
+    LANES(sincospi_near)(s, c, a);
+    *s = lanes_double(lanes_bits(*s) ^ (lanes_bits(x) & sign));
 }
 
 /* ---- logarithm ---------------------------------------------------------------------------- */
@@ -190,14 +183,14 @@ LANES_INLINE lanes_d LANES(log1p)(lanes_d x)
 
 /* ---- exponential -------------------------------------------------------------------------- */
 
-/* x = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r and k. x is in the
- * range of the exponents. The polynomial is (exp(r) - 1 - r) / r^2, to 1.1e-16. */
-LANES_INLINE lanes_d LANES(exp_core)(lanes_d *r, lanes_u *k, lanes_d x)
+/* x + c = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r and k. x is in the
+ * range of the exponents, c below 1e-4. The polynomial is (exp(r) - 1 - r) / r^2, to 1.1e-16. */
+LANES_INLINE lanes_d LANES(exp_core)(lanes_d *r, lanes_u *k, lanes_d x, lanes_d c)
 {
     const lanes_d shifted = x * 0x1.71547652b82fep+0 + LANES_SHIFT;
     const lanes_d n = shifted - LANES_SHIFT;
     const lanes_d high = x - n * LANES_LN2_HI;
-    const lanes_d tail = n * LANES_LN2_LO;
+    const lanes_d tail = n * LANES_LN2_LO - c;
     const lanes_d y = high - tail;
     const lanes_d low = (high - y) - tail;
     const lanes_d p = 0x1.0000000000001p-1 +
@@ -221,7 +214,7 @@ LANES_INLINE lanes_d LANES(exp)(lanes_d x)
     const lanes_d y = plain ? x : lanes_min(lanes_max(x, lanes_all(-750)), lanes_all(710));
     lanes_d r, rest;
     lanes_u k;
-    rest = LANES(exp_core)(&r, &k, y);
+    rest = LANES(exp_core)(&r, &k, y, lanes_all(0));
     if (plain)
         return (1.0 + (r + rest)) * LANES(power2)(k);
     return lanes_pick(lanes_equal(x, x), LANES(scale)(1.0 + (r + rest), k), x);
@@ -236,7 +229,7 @@ LANES_INLINE lanes_d LANES(expm1)(lanes_d x)
     const lanes_d y = plain ? x : lanes_min(lanes_max(x, lanes_all(-44)), lanes_all(710));
     lanes_d r, rest, inverse, first, sum, result;
     lanes_u k;
-    rest = LANES(exp_core)(&r, &k, y);
+    rest = LANES(exp_core)(&r, &k, y, lanes_all(0));
     inverse = LANES(power2)(0 - k);
     if (!plain) /* from 2^1000 on the 1 is long gone */
         inverse = lanes_pick(lanes_less(y, lanes_all(690)), inverse, lanes_all(0x1p-1000));
@@ -248,6 +241,45 @@ LANES_INLINE lanes_d LANES(expm1)(lanes_d x)
     result = LANES(scale)(sum, k);
     result = lanes_pick(lanes_less(size, lanes_all(LANES_TINY)), x, result);
     return lanes_pick(lanes_equal(x, x), result, x);
+}
+
+/* ---- cube root ---------------------------------------------------------------------------- */
+
+/* x = m 2^(3 q + r) with m in [sqrt(1/2), sqrt(2)) and r = -1, 0, 1. The quadratics in r are 2^r and
+ * its cube root; the polynomial is the cube root of m to 1.4e-5. That product is rounded to 17 bits,
+ * so its cube y^3 is exact, and so is a - y^3 for a = m 2^r. With d = (a - y^3) / y^3 the root is
+ * y (1 + d)^(1/3) = y (1 + d/3 - d^2/9 + 5 d^3/81), to 1e-18. */
+LANES_INLINE lanes_d LANES(cbrt)(lanes_d x)
+{
+    const lanes_d size = lanes_abs(x), inf = lanes_all(LANES_INF);
+    const int plain =
+        lanes_every(lanes_and(lanes_less_equal(lanes_all(0x1p-1022), size), lanes_less(size, inf)));
+    lanes_d v = size, shift = lanes_all(0), m, k, shifted, r, a, y, cube, d, result;
+    if (!plain) {
+        const lanes_m subnormal = lanes_less(size, lanes_all(0x1p-1022));
+        v = lanes_pick(subnormal, size * 0x1p54, size);
+        v = lanes_pick(lanes_and(lanes_less(lanes_all(0), v), lanes_less(v, inf)), v, lanes_all(1));
+        shift = lanes_pick(subnormal, lanes_all(54), shift);
+    }
+    k = LANES(log_split)(&m, v) - shift;
+    shifted = k * 0x1.5555555555555p-2 + LANES_SHIFT;
+    r = k - 3.0 * (shifted - LANES_SHIFT);
+    a = m * (1.0 + r * (0.75 + 0.25 * r));
+    y = 0x1.d093b879adecep-2 +
+        m * (0x1.cb216702c91b8p-1 +
+             m * (-0x1.0c2b25ead282dp-1 + m * (0x1.acbd9f5c005f9p-3 + m * -0x1.26e9dff4b8569p-5)));
+    y *= 1.0 + r * (0x1.dd68e9bbaedb3p-3 + r * 0x1.b744985853524p-6);
+    y = lanes_double((lanes_bits(y) + (UINT64_C(1) << 35)) & ~UINT64_C(0xfffffffff));
+    cube = y * y * y;
+    d = (a - cube) / cube;
+    result =
+        y +
+        y * (d * (0x1.5555555555555p-2 + d * (-0x1.c71c71c71c71cp-4 + d * 0x1.f9add3c0ca458p-5)));
+    result *= LANES(power2)(lanes_bits(shifted) - LANES_SHIFT_BITS);
+    if (!plain)
+        result = lanes_pick(lanes_and(lanes_less(lanes_all(0), size), lanes_less(size, inf)),
+                            result, size);
+    return lanes_copysign(result, x);
 }
 
 /* ---- angle -------------------------------------------------------------------------------- */
@@ -301,6 +333,115 @@ LANES_INLINE lanes_d LANES(atan2pi)(lanes_d y, lanes_d x)
         angle = lanes_pick(numbers, angle, lanes_all(LANES_NAN));
     }
     return lanes_copysign(angle, y);
+}
+
+/* asin(s)/pi for 0 <= s <= 1/2: s/pi + s w A(w) with w = s^2, A to 5e-18. Here s/4 is exact. */
+LANES_INLINE lanes_d LANES(asin_core)(lanes_d s, lanes_d w)
+{
+    const lanes_d v = w * w;
+    const lanes_d even =
+        0x1.b2995e7b7b604p-5 +
+        v * (0x1.d1a452f2a0e7bp-7 +
+             v * (0x1.d2b3511ff8b23p-8 +
+                  v * (0x1.23733817c23abp-8 +
+                       v * (0x1.aeaef5be792a6p-9 +
+                            v * (0x1.6afed9e72d4a0p-8 + v * 0x1.2bf48c984f23ep-7)))));
+    const lanes_d odd = 0x1.8723a1d588499p-6 +
+                        v * (0x1.3ce52a04819f0p-7 +
+                             v * (0x1.69fbea396bfafp-8 +
+                                  v * (0x1.deedbc4af55d9p-9 +
+                                       v * (0x1.c76410ac3621cp-10 + v * -0x1.35d2548eb0149p-8))));
+    return 0.25 * s + s * (0x1.17cc1b727220bp-4 + w * (even + w * odd));
+}
+
+/* In the middle 1/2 - asin(x)/pi. For |x| > 1/2 twice the arc sine of s = sqrt((1 - |x|)/2), where
+ * what is below the root is exact; and the reflection of it for negative x. Below the root of |x| > 1 is a negative number: NaN. */
+LANES_INLINE lanes_d LANES(acospi)(lanes_d x)
+{
+    const lanes_d size = lanes_abs(x), z = 0.5 - 0.5 * size;
+    const lanes_m far = lanes_less(lanes_all(0.5), size);
+    const lanes_d s = lanes_pick(far, lanes_sqrt(z), size);
+    const lanes_d arc = LANES(asin_core)(s, lanes_pick(far, z, size * size));
+    const lanes_d twice = arc + arc;
+    const lanes_m below = lanes_less(x, lanes_all(0));
+    const lanes_d outer = lanes_pick(below, 1.0 - twice, twice);
+    return lanes_pick(far, outer, 0.5 - lanes_copysign(arc, x));
+}
+
+/* ---- error function, normal probability --------------------------------------------------- */
+
+/* erfc(a) = v 2^k for 0 <= a <= 27.5, where high + low = -a^2, |low| < 1e-4:
+ * exp(-a^2) (1 + s Q(s)) / (1 + 2 a) with s = a / (a + 4). What that leaves for 1 + s Q is between 1
+ * and 1.3 and smooth at infinity too (M. Schonfelder 1978, Chebyshev expansions for the error and
+ * related functions, Mathematics of Computation 32). Q is a polynomial in s - 7/16, to 9e-17. */
+LANES_INLINE lanes_d LANES(erfc_core)(lanes_u *k, lanes_d a, lanes_d high, lanes_d low)
+{
+    const lanes_d s = a / (a + 4.0);
+    const lanes_d t = s - 0.4375;
+    const lanes_d w = t * t;
+    const lanes_d even = -0x1.ce34221af1165p+2 +
+                         w * (-0x1.6a577d4e1dfcbp+3 +
+                              w * (-0x1.bd730cfd1299fp+2 +
+                                   w * (0x1.8652b58e88843p-3 +
+                                        w * (0x1.3a3e9ae4839efp-1 +
+                                             w * (-0x1.668a99f7c2bbbp-2 +
+                                                  w * (0x1.417d4bab0eae8p-3 +
+                                                       w * (-0x1.21bcc5234a623p-4 +
+                                                            w * (0x1.0ec44254b4068p-5 +
+                                                                 w * -0x1.85a6a58d77c72p-7))))))));
+    const lanes_d odd =
+        0x1.3fea472c273a8p+3 +
+        w * (0x1.484419094803cp+3 +
+             w * (0x1.6d7cfae68b65cp+1 +
+                  w * (-0x1.2e1d3e4317300p+0 +
+                       w * (0x1.797c2eba5c625p-3 +
+                            w * (0x1.5180f09188915p-5 +
+                                 w * (-0x1.d423208695eb2p-5 +
+                                      w * (0x1.29a643afb0c41p-5 + w * -0x1.c5b76dfd7eeddp-7)))))));
+    const lanes_d q =
+        0x1.2530400ad34ddp-1 +
+        t * (-0x1.f228f86702794p+0 + t * (0x1.0ff2daac52c6cp+2 + t * (even + t * odd)));
+    const lanes_d g = (1.0 + s * q) / (1.0 + 2.0 * a);
+    lanes_d r;
+    const lanes_d rest = LANES(exp_core)(&r, k, high, low);
+    return g + g * (r + rest);
+}
+
+/* The square of a in two parts, the first of them exact: a^2 = h^2 + (a + h) (a - h) with h the
+ * upper half of the digits of a. */
+LANES_INLINE lanes_d LANES(square)(lanes_d *low, lanes_d a)
+{
+    const lanes_d h = lanes_double(lanes_bits(a) & ~UINT64_C(0x7ffffff));
+    *low = (a + h) * (a - h);
+    return h * h;
+}
+
+LANES_INLINE lanes_d LANES(erfc)(lanes_d x)
+{
+    const lanes_d a = lanes_min(lanes_abs(x), lanes_all(27.5));
+    const int plain = lanes_every(lanes_less(a, lanes_all(26)));
+    lanes_d low, result;
+    lanes_u k;
+    const lanes_d high = LANES(square)(&low, a);
+    const lanes_d v = LANES(erfc_core)(&k, a, -high, -low);
+    result = plain ? v * LANES(power2)(k) : LANES(scale)(v, k);
+    result = lanes_pick(lanes_less(x, lanes_all(0)), 2.0 - result, result);
+    return plain ? result : lanes_pick(lanes_equal(x, x), result, x);
+}
+
+/* P(Z <= z) = erfc(-z / sqrt(2)) / 2. The exponent is -z^2/2, not the square of a quotient that was
+ * rounded; the rest of erfc hardly changes where its argument does. */
+LANES_INLINE lanes_d LANES(normal_cdf)(lanes_d z)
+{
+    const lanes_d a = lanes_min(lanes_abs(z), lanes_all(38.75));
+    const int plain = lanes_every(lanes_less(a, lanes_all(36)));
+    lanes_d low, result;
+    lanes_u k;
+    const lanes_d high = LANES(square)(&low, a);
+    const lanes_d v = LANES(erfc_core)(&k, a * 0x1.6a09e667f3bcdp-1, -0.5 * high, -0.5 * low);
+    result = plain ? v * LANES(power2)(k - 1) : LANES(scale)(v, k - 1);
+    result = lanes_pick(lanes_less(lanes_all(0), z), 1.0 - result, result);
+    return plain ? result : lanes_pick(lanes_equal(z, z), result, z);
 }
 
 /* ---- normal quantile ---------------------------------------------------------------------- */

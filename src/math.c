@@ -51,6 +51,26 @@ void buffon_math_expm1(double *y, const double *x, size_t n)
     LEVELS_RUN(math_expm1, (y, x, n));
 }
 
+void buffon_math_cbrt(double *y, const double *x, size_t n)
+{
+    LEVELS_RUN(math_cbrt, (y, x, n));
+}
+
+void buffon_math_acospi(double *t, const double *x, size_t n)
+{
+    LEVELS_RUN(math_acospi, (t, x, n));
+}
+
+void buffon_math_erfc(double *y, const double *x, size_t n)
+{
+    LEVELS_RUN(math_erfc, (y, x, n));
+}
+
+void buffon_math_normal_cdf(double *p, const double *z, size_t n)
+{
+    LEVELS_RUN(math_normal_cdf, (p, z, n));
+}
+
 void buffon_math_normal_quantile(double *z, const double *u, size_t n)
 {
     LEVELS_RUN(math_normal_quantile, (z, u, n));
@@ -96,6 +116,26 @@ double buffon_priv_expm1(double x)
 double buffon_priv_atan2pi(double y, double x)
 {
     return atan2pi_scalar(y, x);
+}
+
+double buffon_priv_cbrt(double x)
+{
+    return cbrt_scalar(x);
+}
+
+double buffon_priv_acospi(double x)
+{
+    return acospi_scalar(x);
+}
+
+double buffon_priv_erfc(double x)
+{
+    return erfc_scalar(x);
+}
+
+double buffon_priv_normal_cdf(double z)
+{
+    return normal_cdf_scalar(z);
 }
 
 double buffon_priv_normal_quantile(double u)

@@ -30,6 +30,10 @@ MATH_BATCH(log)
 MATH_BATCH(log1p)
 MATH_BATCH(exp)
 MATH_BATCH(expm1)
+MATH_BATCH(cbrt)
+MATH_BATCH(acospi)
+MATH_BATCH(erfc)
+MATH_BATCH(normal_cdf)
 
 static void LANES(math_sincospi)(double *s, double *c, const double *x, size_t n)
 {

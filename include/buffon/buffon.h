@@ -1,8 +1,8 @@
 /* buffon: Monte Carlo integration and sampling. This header includes all the others.
  *
- *     layer 0  api  version  status
- *     layer 1  rng  stats  estimate  interval  integrand  points  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion
+ *     layer 0  api  version  status  cpu
+ *     layer 1  math  rng  stats  estimate  interval  integrand  points  partial
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -13,15 +13,19 @@
 #include "api.h"
 #include "box.h"
 #include "cap.h"
+#include "cpu.h"
 #include "density.h"
 #include "disk.h"
 #include "estimate.h"
+#include "exponential.h"
 #include "hemisphere.h"
 #include "importance.h"
 #include "integrand.h"
 #include "interval.h"
 #include "inverse_cdf.h"
 #include "inversion.h"
+#include "math.h"
+#include "normal.h"
 #include "partial.h"
 #include "points.h"
 #include "rejection.h"
