@@ -122,8 +122,11 @@ endef
 
 # These tests stand between the library and the system.
 wrap = $(1:%=-Wl,--wrap=%)
-wrap_test_faults = $(call wrap,malloc calloc free pthread_create)
+wrap_test_faults = $(call wrap,malloc calloc free pthread_create clock_gettime)
+wrap_test_engine = $(call wrap,clock_gettime)
+wrap_test_failures = $(call wrap,clock_gettime)
 wrap_test_progress = $(call wrap,clock_gettime)
+wrap_bench = $(call wrap,malloc calloc free)
 
 $(BUILD)/tests/%: tests/%.c $(BUILD)/verify/libbuffon.a
 	$(call program,-Isrc $(wrap_$*))
@@ -134,8 +137,8 @@ $(BUILD)/tests/bits: tests/bits.c $(static)
 $(BUILD)/tests/battery: tests/battery.c $(static)
 	$(call program)
 
-$(BUILD)/bench/%: tests/bench/%.c $(static)
-	$(call program,$(if $(gsl),-DBENCH_GSL $(gsl_cflags)),$(gsl))
+$(BUILD)/bench/%: tests/bench/%.c $(static) $(BUILD)/peers
+	$(call program,$(peers) $(wrap_$*),$(peer_libraries))
 
 $(BUILD)/examples/%: examples/%.c $(static)
 	$(call program)
@@ -222,11 +225,26 @@ fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets, FUZZ_SECONDS
 
 # ---- benches ------------------------------------------------------------------------------------
 
-# Asked only where a bench is built.
+# Libraries to compare with, asked for only where a bench is built. $(call links,header,libraries):
+# does a program with these?
 gsl = $(eval gsl := $(shell $(PKG_CONFIG) --libs gsl 2>/dev/null))$(gsl)
 gsl_cflags = $(shell $(PKG_CONFIG) --cflags gsl)
+dsfmt = $(eval dsfmt := $(call links,dSFMT.h,-ldSFMT))$(dsfmt)
+random123 = $(eval random123 := $(call links,Random123/philox.h))$(random123)
+links = $(shell mkdir -p $(BUILD); echo 'int main(void) { return 0; }' | \
+          $(CC) $(CPPFLAGS) $(LDFLAGS) -include $(1) -x c - -x none -o $(BUILD)/links $(2) \
+          2>/dev/null && echo yes)
+peers = $(if $(gsl),-DBENCH_GSL $(gsl_cflags)) $(if $(dsfmt),-DBENCH_DSFMT) \
+        $(if $(random123),-DBENCH_RANDOM123)
+peer_libraries = $(gsl) $(if $(dsfmt),-ldSFMT)
 
-bench: $(benches) ## ns per number, point and evaluation; against GSL where it is installed
+# Changes when a library comes or goes.
+$(BUILD)/peers: force
+	@mkdir -p $(@D)
+	@echo '$(strip $(peers))' > $@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
+bench: $(benches) ## ns per number, point and evaluation; against other libraries installed
 	@for program in $^; do $$program || exit 1; done
 
 bench-peers: ## the same, and an error where GSL is not installed

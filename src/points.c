@@ -22,25 +22,33 @@ buffon_points buffon_points_random(void)
     return (buffon_points){.fill = points_fill_random, .name = "buffon.random"};
 }
 
-/* Pair p is the uniform p of each dimension and its mirror image. */
+/* Pair p is the uniform p of each dimension and its mirror image; the points from `first` on. */
+static void points_pairs(double *row, size_t n, const buffon_rng_key *key, uint32_t dimension,
+                         uint64_t first)
+{
+    double pair[POINTS_TILE + 1];
+    const size_t odd = (size_t)(first & 1);
+    buffon_rng_uniforms_at(pair, (odd + n + 1) / 2, key, dimension, first / 2);
+    if (odd)
+        row[0] = 1 - pair[0];
+    for (size_t k = 0; k < (n - odd) / 2; k++) {
+        const double v = pair[odd + k];
+        row[odd + 2 * k] = v;
+        row[odd + 2 * k + 1] = 1 - v;
+    }
+    if ((n - odd) % 2)
+        row[n - 1] = pair[(n - odd) / 2 + odd];
+}
+
 static int points_fill_antithetic(double *u, const buffon_points_block *block,
                                   const buffon_points *self)
 {
-    double pair[POINTS_TILE + 1];
     (void)self;
     for (size_t j = 0; j < block->dim; j++) {
-        double *row = u + j * block->n;
-        for (size_t i = 0; i < block->n;) {
-            const uint64_t first = block->first + i;
-            const size_t odd = (size_t)(first & 1);
+        for (size_t i = 0; i < block->n; i += 2 * POINTS_TILE) {
             const size_t left = block->n - i;
-            const size_t m = left < 2 * POINTS_TILE ? left : 2 * POINTS_TILE;
-            buffon_rng_uniforms_at(pair, (odd + m + 1) / 2, &block->key, (uint32_t)j, first / 2);
-            for (size_t k = 0; k < m; k++) {
-                const double v = pair[(odd + k) / 2];
-                row[i + k] = ((odd + k) & 1) ? 1 - v : v;
-            }
-            i += m;
+            points_pairs(u + j * block->n + i, left < 2 * POINTS_TILE ? left : 2 * POINTS_TILE,
+                         &block->key, (uint32_t)j, block->first + i);
         }
     }
     return 0;
@@ -129,7 +137,11 @@ static int points_fill_jitter(double *u, const buffon_points_block *block,
     for (size_t i = 0; i < block->n; i += POINTS_TILE) {
         const size_t m = block->n - i < POINTS_TILE ? block->n - i : POINTS_TILE;
         for (size_t t = 0; t < m; t++) {
-            const uint64_t pair = (block->first + i + t) / 2;
+            const uint64_t point = block->first + i + t, pair = point / 2;
+            if (t > 0 && (point & 1)) { /* it has its pair's cell */
+                cell[t] = cell[t - 1];
+                continue;
+            }
             if (pair / cells != sweep) {
                 sweep = pair / cells;
                 shuffle = points_shuffle_make(cells, &block->key, sweep);
