@@ -19,16 +19,49 @@ static inline double squares(const double *x, void *ctx)
     return sum;
 }
 
-static int squares_batch(double *f, const double *x, size_t n, void *ctx)
-{
-    (void)ctx;
-    for (size_t i = 0; i < n; i++)
-        f[i] = x[i] * x[i];
-    for (size_t j = 1; j < dim; j++) {
-        for (size_t i = 0; i < n; i++)
-            f[i] += x[j * n + i] * x[j * n + i];
+/* What we integrate, for each level compiled for its instructions, as -march would: an integrand is
+ * the caller's, and who runs it by the million lets the compiler know his machine. Never inlined, or
+ * the compiler would turn loops whose arrays it knows. */
+#if defined(__GNUC__)
+#define SQUARES_APART __attribute__((noinline))
+#else
+#define SQUARES_APART
+#endif
+
+#define SQUARES(name, apart)                                                                       \
+    apart static int name(double *f, const double *x, size_t n, void *ctx)                         \
+    {                                                                                              \
+        (void)ctx;                                                                                 \
+        for (size_t i = 0; i < n; i++)                                                             \
+            f[i] = x[i] * x[i];                                                                    \
+        for (size_t j = 1; j < dim; j++) {                                                         \
+            for (size_t i = 0; i < n; i++)                                                         \
+                f[i] += x[j * n + i] * x[j * n + i];                                               \
+        }                                                                                          \
+        return 0;                                                                                  \
     }
-    return 0;
+
+SQUARES(squares_plain, SQUARES_APART)
+#if defined(__GNUC__) && defined(__x86_64__)
+SQUARES(squares_avx2, __attribute__((noinline, target("avx2"))))
+SQUARES(squares_avx512, __attribute__((noinline, target("avx512f,avx512dq,avx512vl,avx512bw"))))
+#else
+#define squares_avx2 squares_plain
+#define squares_avx512 squares_plain
+#endif
+
+typedef int squares_function(double *f, const double *x, size_t n, void *ctx);
+
+static squares_function *squares_batch(void)
+{
+    switch (buffon_cpu_level()) {
+    case BUFFON_LEVEL_AVX512:
+        return squares_avx512;
+    case BUFFON_LEVEL_AVX2:
+        return squares_avx2;
+    default:
+        return squares_plain;
+    }
 }
 
 static double ours_integral(const buffon_integrand *f, const double *lo, size_t items)
@@ -41,13 +74,18 @@ static double ours_integral(const buffon_integrand *f, const double *lo, size_t 
 
 static double ours_batch(size_t items)
 {
-    return ours_integral(&(buffon_integrand){.batch = squares_batch, .dim = dim}, zeros, items);
+    return ours_integral(&(buffon_integrand){.batch = squares_batch(), .dim = dim}, zeros, items);
+}
+
+static double ours_plain_batch(size_t items)
+{
+    return ours_integral(&(buffon_integrand){.batch = squares_plain, .dim = dim}, zeros, items);
 }
 
 static double ours_box_batch(size_t items)
 {
     static const double lo[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
-    return ours_integral(&(buffon_integrand){.batch = squares_batch, .dim = dim}, lo, items);
+    return ours_integral(&(buffon_integrand){.batch = squares_batch(), .dim = dim}, lo, items);
 }
 
 static double ours_scalar(size_t items)
@@ -59,10 +97,11 @@ static double ours_scalar(size_t items)
 static double bare_batch(size_t items)
 {
     const buffon_rng_key key = {.seed = next_seed++};
+    squares_function *const batch = squares_batch();
     for (size_t i = 0; i < items; i += TILE) {
         for (size_t j = 0; j < dim; j++)
             buffon_rng_uniforms_at(buffer + j * TILE, TILE, &key, (uint32_t)j, i);
-        squares_batch(points, buffer, TILE, NULL);
+        batch(points, buffer, TILE, NULL);
         bench_sink = points[i % 3];
     }
     return points[1];
@@ -118,6 +157,7 @@ static void bench_integrals(void)
 {
     const bench_peer peers[] = {
         {"buffon, box from -1 to 1", ours_box_batch, {0}},
+        {"buffon, integrand for the 128-bit level", ours_plain_batch, {0}},
         {"buffon, one point at a time", ours_scalar, {0}},
         {"plain loop, scalar xoshiro256++", plain_integral, {0}},
         {"GSL gsl_monte_plain, taus2", gsl_taus_integral, {0}},

@@ -50,7 +50,7 @@ void __wrap_free(void *p)
 /* KiB that a run of the sum of squares takes. */
 static double memory_of_run(uint64_t samples, uint32_t threads)
 {
-    const buffon_integrand f = {.batch = squares_batch, .dim = dim};
+    const buffon_integrand f = {.batch = squares_plain, .dim = dim};
     const buffon_run run = {.samples = samples, .threads = threads};
     const size_t before = memory_live;
     buffon_estimate e;
