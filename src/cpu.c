@@ -68,6 +68,15 @@ buffon_level buffon_cpu_level(void)
 
 const char *buffon_level_string(buffon_level level)
 {
-    static const char *const name[] = {"scalar", "128", "avx2", "avx512"};
-    return (unsigned)level < sizeof name / sizeof *name ? name[level] : "unknown";
+    switch (level) {
+    case BUFFON_LEVEL_SCALAR:
+        return "scalar";
+    case BUFFON_LEVEL_128:
+        return "128";
+    case BUFFON_LEVEL_AVX2:
+        return "avx2";
+    case BUFFON_LEVEL_AVX512:
+        return "avx512";
+    }
+    return "unknown";
 }

@@ -13,6 +13,8 @@
 #include "worker.h"
 
 #define ENGINE_ROUND 1024           /* blocks handed to the workers at a time, at most */
+#define ENGINE_SHARES 8             /* in which a worker takes its part of what is left */
+#define ENGINE_ALONE_SECONDS 1e-3   /* of a run, before threads are started for it */
 #define ENGINE_PROGRESS_SECONDS 0.1 /* between calls of the progress callback */
 #define ENGINE_LINDEBERG 0.02       /* the largest share of one sample where a tolerance is met */
 
@@ -23,17 +25,25 @@ typedef struct engine {
     buffon_priv_record *record;
     int own_record; /* no partial holds it */
     buffon_priv_worker *worker;
-    size_t workers;
+    size_t workers, wanted; /* there are; there are to be when the first millisecond is over */
+    size_t points;          /* of the largest block: for these a worker has memory */
+    double alone_until;     /* by engine_clock */
     buffon_priv_team *team;
-    int team_tried;
-    buffon_priv_task *task; /* of the present round */
-    size_t tasks, round;    /* there are, and at most */
-    uint64_t next_k;        /* where the next round looks for blocks */
+    buffon_priv_task *task;    /* of the present round */
+    size_t tasks, round, room; /* there are, and at most; the array's */
+    uint64_t next_k;           /* where the next round looks for blocks */
     size_t next_cell;
     double last_progress;
-    atomic_size_t next_task;
-    atomic_int stop;
+    atomic_size_t next_task; /* the first that no worker has taken */
+    atomic_size_t end_task;  /* none is done from here on */
 } engine;
+
+static double engine_clock(void)
+{
+    struct timespec now = {0, 0};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 /* ---- memory ---- */
 
@@ -49,6 +59,36 @@ static void engine_free(engine *e)
         buffon_priv_record_free(e->record);
 }
 
+/* A sample keeps its largest values. In the end those are not among them that are below all that
+ * `others` keep of a cell, with which a worker's will be merged. A worker that has no values yet is
+ * spared them: its list is filled with the least of the others'. That these are merged too does no
+ * harm, since as many values that are no less are there. */
+static void engine_raise_bar(const buffon_priv_cells *cells, const buffon_priv_cells *others,
+                             size_t cell, const buffon_priv_shape *shape)
+{
+    const size_t series = buffon_priv_shape_series(shape);
+    for (size_t s = cell * series; s < (cell + 1) * series; s++) {
+        for (size_t i = 0; i < BUFFON_STATS_TOP; i++)
+            cells->stats[s].top[i] = others->stats[s].top[BUFFON_STATS_TOP - 1];
+    }
+}
+
+/* Makes workers until there are n: BUFFON_OK, or BUFFON_E_NOMEM and fewer. */
+static buffon_status engine_hire(engine *e, size_t n)
+{
+    buffon_status status = BUFFON_OK;
+    while (e->workers < n) {
+        buffon_priv_worker *worker = &e->worker[e->workers];
+        status = buffon_priv_worker_make(worker, &e->plan, e->points);
+        if (status != BUFFON_OK)
+            break;
+        for (size_t c = 0; c < buffon_priv_shape_cells(&e->plan.shape); c++)
+            engine_raise_bar(&worker->whole, &e->worker[0].whole, c, &e->plan.shape);
+        e->workers++;
+    }
+    return status;
+}
+
 static buffon_status engine_allocate(engine *e)
 {
     uint64_t blocks = 0, longest = 0;
@@ -59,20 +99,18 @@ static buffon_status engine_allocate(engine *e)
         blocks += (n + e->plan.shape.block - 1) / e->plan.shape.block;
         longest = n > longest ? n : longest;
     }
-    const size_t n = (size_t)(longest < e->plan.shape.block ? longest : e->plan.shape.block);
-    const size_t most = blocks < ENGINE_ROUND ? (size_t)blocks : ENGINE_ROUND;
-    e->workers = most < e->plan.run.threads ? most : e->plan.run.threads;
+    e->points = (size_t)(longest < e->plan.shape.block ? longest : e->plan.shape.block);
+    e->room = blocks < ENGINE_ROUND ? (size_t)blocks : ENGINE_ROUND;
+    e->wanted = e->room < e->plan.run.threads ? e->room : e->plan.run.threads;
     /* The first round shows how long a block takes, if anybody is waiting to hear. */
-    e->round = e->plan.run.progress != NULL ? e->workers : ENGINE_ROUND;
-    e->task = calloc(ENGINE_ROUND, sizeof *e->task);
-    e->worker = calloc(e->workers, sizeof *e->worker);
+    e->round = e->plan.run.progress != NULL ? e->wanted : e->room;
+    e->task = malloc(e->room * sizeof *e->task);
+    e->worker = calloc(e->wanted, sizeof *e->worker);
     if (e->task == NULL || e->worker == NULL)
         return BUFFON_E_NOMEM;
-    for (size_t i = 0; i < e->workers; i++) {
-        const buffon_status status = buffon_priv_worker_make(&e->worker[i], &e->plan, n);
-        if (status != BUFFON_OK)
-            return status;
-    }
+    /* The caller's own worker, or all that his executor may use. */
+    if (engine_hire(e, e->plan.run.executor != NULL ? e->wanted : 1) != BUFFON_OK)
+        return BUFFON_E_NOMEM;
     return buffon_priv_plan_prepare(&e->plan);
 }
 
@@ -137,22 +175,55 @@ static size_t engine_gather(engine *e, size_t most)
     return e->tasks;
 }
 
-/* Tasks are taken in order, and one that is taken is done: so when one fails, all before it have
- * been tried, and the lowest failure does not depend on the threads. */
+/* A worker takes the next n tasks and does them. Tasks are taken in order, and one that is taken is
+ * done unless one before it has failed: so all before the lowest failure have been tried, and it
+ * does not depend on the threads. */
+static void engine_do(engine *e, buffon_priv_worker *worker, size_t n)
+{
+    const size_t first = atomic_fetch_add_explicit(&e->next_task, n, memory_order_relaxed);
+    size_t end = atomic_load_explicit(&e->end_task, memory_order_relaxed);
+    for (size_t t = first; t < first + n && t < end; t++) {
+        const buffon_status status = buffon_priv_worker_block(worker, &e->task[t]);
+        end = atomic_load_explicit(&e->end_task, memory_order_relaxed);
+        if (status == BUFFON_OK)
+            continue;
+        worker->status = status;
+        worker->task = t;
+        while (t < end && !atomic_compare_exchange_weak(&e->end_task, &end, t))
+            continue;
+    }
+}
+
+/* Tasks that no worker has taken. */
+static size_t engine_left(engine *e)
+{
+    const size_t next = atomic_load_explicit(&e->next_task, memory_order_relaxed);
+    const size_t end = atomic_load_explicit(&e->end_task, memory_order_relaxed);
+    return next < end ? end - next : 0;
+}
+
+/* Several tasks at a time, so that workers seldom meet at the counter, but ever fewer, so that they
+ * end together. */
 static void engine_work(size_t i, void *arg)
 {
     engine *e = arg;
-    buffon_priv_worker *worker = &e->worker[i];
-    while (!atomic_load_explicit(&e->stop, memory_order_relaxed)) {
-        const size_t t = atomic_fetch_add_explicit(&e->next_task, 1, memory_order_relaxed);
-        if (t >= e->tasks)
-            return;
-        worker->status = buffon_priv_worker_block(worker, &e->task[t]);
-        if (worker->status != BUFFON_OK) {
-            worker->task = t;
-            atomic_store_explicit(&e->stop, 1, memory_order_relaxed);
-        }
-    }
+    for (size_t left = engine_left(e); left > 0; left = engine_left(e))
+        engine_do(e, &e->worker[i], 1 + left / (ENGINE_SHARES * e->workers));
+}
+
+/* For the first millisecond of a run the caller's thread works alone: a run that ends in it would
+ * only lose by threads. Now and then, ever more rarely, it looks at the clock. Then memory and
+ * threads are had for all that is wanted; what cannot be had is done without. */
+static void engine_begin(engine *e)
+{
+    for (size_t left = engine_left(e); left > 0 && engine_clock() < e->alone_until;
+         left = engine_left(e))
+        engine_do(e, &e->worker[0], 1 + (e->tasks - left) / ENGINE_SHARES);
+    if (engine_left(e) < 2)
+        return;
+    (void)engine_hire(e, e->wanted);
+    e->wanted = e->workers;
+    e->team = buffon_priv_team_start(e->workers - 1);
 }
 
 /* The tasks of the round on as many workers as there are. */
@@ -160,17 +231,15 @@ static void engine_round_run(engine *e)
 {
     const size_t workers = e->tasks < e->workers ? e->tasks : e->workers;
     atomic_store(&e->next_task, 0);
-    atomic_store(&e->stop, 0);
+    atomic_store(&e->end_task, e->tasks);
     if (e->plan.run.executor != NULL) {
         e->plan.run.executor(workers, engine_work, e, e->plan.run.executor_ctx);
         engine_work(0, e); /* what an executor that ended early left */
         return;
     }
-    if (workers > 1 && !e->team_tried) {
-        e->team_tried = 1;
-        e->team = buffon_priv_team_start(e->workers - 1);
-    }
-    buffon_priv_team_run(workers > 1 ? e->team : NULL, engine_work, e);
+    if (e->workers < e->wanted)
+        engine_begin(e);
+    buffon_priv_team_run(engine_left(e) > 1 ? e->team : NULL, engine_work, e);
 }
 
 /* The worker that failed at the lowest task; NULL if none did. */
@@ -185,6 +254,7 @@ static const buffon_priv_worker *engine_failure(const engine *e)
     return lowest;
 }
 
+/* Empties a worker's sums into the record's. */
 static void engine_merge_cells(engine *e, const buffon_priv_cells *into,
                                const buffon_priv_cells *from)
 {
@@ -192,6 +262,7 @@ static void engine_merge_cells(engine *e, const buffon_priv_cells *into,
         if (buffon_priv_cell_count(from, c, &e->plan.shape) > 0) {
             buffon_priv_cell_merge(into, from, c, &e->plan.shape);
             buffon_priv_cell_clear(from, c, &e->plan.shape);
+            engine_raise_bar(from, into, c, &e->plan.shape);
         }
     }
 }
@@ -214,13 +285,6 @@ static void engine_commit(engine *e)
 }
 
 /* ---- progress ---- */
-
-static double engine_clock(void)
-{
-    struct timespec now = {0, 0};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* Points that this run, or this part of it, is to have in the end. */
 static uint64_t engine_total(const engine *e)
@@ -260,9 +324,9 @@ static int engine_progress(engine *e, double before)
 {
     const double now = engine_clock(), seconds = now - before;
     const double most = (double)e->tasks * (ENGINE_PROGRESS_SECONDS / (seconds + 1e-9));
-    e->round = most < (double)ENGINE_ROUND ? (size_t)most : ENGINE_ROUND;
-    if (e->round < e->workers)
-        e->round = e->workers;
+    e->round = most < (double)e->room ? (size_t)most : e->room;
+    if (e->round < e->wanted)
+        e->round = e->wanted;
     if (now - e->last_progress < ENGINE_PROGRESS_SECONDS)
         return 0;
     e->last_progress = now;
@@ -335,6 +399,7 @@ static buffon_status engine_reserve(engine *e, buffon_status reservation)
 static buffon_status engine_loop(engine *e)
 {
     buffon_status status = BUFFON_OK;
+    e->alone_until = e->workers < e->wanted ? engine_clock() + ENGINE_ALONE_SECONDS : 0;
     for (uint32_t j = 0; j < e->plan.shape.looks; j++) {
         if (!buffon_priv_plan_look(&e->plan, e->record, j) && j + 1 < e->plan.shape.looks)
             continue;

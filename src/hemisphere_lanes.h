@@ -1,8 +1,8 @@
 /* Private. The kernel of hemisphere.c: included by levels.h. */
 
 /* The radius on the disk below is |2 v - 1|, v the uniform further from 1/2. So the height is
- * sqrt(1 - (2 v - 1)^2) = 2 sqrt(v (1 - v)), which neither cancels nor vanishes. Row 3 of the output
- * is the density, where it is asked for; a frame of NULL leaves the axis at +z. */
+ * sqrt(1 - (2 v - 1)^2) = 2 sqrt(v (1 - v)), which neither cancels nor vanishes. Row 3 of the
+ * output is the density, where it is asked for; a frame of NULL leaves the axis at +z. */
 LANES_INLINE void LANES(hemisphere_points)(double *const row[4], const double *u1, const double *u2,
                                            size_t n, const double *frame)
 {

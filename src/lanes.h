@@ -1,8 +1,8 @@
 /* Private. Lanes of doubles and of 64-bit words: included by levels.h, once for each level.
  *
- * LANES_WIDTH lanes make a vector of the machine's own width; wider ones would be spilled. Compilers
- * give + - * / & | ^ << >> on vectors and with single numbers; here is what they do not give, each
- * with the result of plain C in every lane:
+ * LANES_WIDTH lanes make a vector of the machine's own width; wider ones would be spilled.
+ * Compilers give + - * / & | ^ << >> on vectors and with single numbers; here is what they do not
+ * give, each with the result of plain C in every lane:
  *
  *     lanes_d, lanes_u, lanes_m       doubles, words, truth values
  *     lanes_all(x), lanes_words(w)    the same in all lanes
@@ -13,6 +13,9 @@
  *     lanes_pick(m, a, b)             m ? a : b
  *     lanes_min(a, b), lanes_max(a, b)   a < b ? a : b,  a > b ? a : b
  *     lanes_abs(v), lanes_copysign(v, s), lanes_sqrt(v)
+ *     lanes_count(m)                  the number of true lanes
+ *     lanes_compress(p, v, m)         the true lanes, side by side, in p[LANES_WIDTH]
+ *     lanes_expand(v, p, m)           v, its true lanes from p, where they are side by side
  *
  * With one lane all of it is plain C on double and uint64_t: the portable level, and the scalar
  * functions of elementary.h, are the same source.
@@ -40,6 +43,9 @@
 #define lanes_abs LANES(lanes_abs)
 #define lanes_copysign LANES(lanes_copysign)
 #define lanes_sqrt LANES(lanes_sqrt)
+#define lanes_count LANES(lanes_count)
+#define lanes_compress LANES(lanes_compress)
+#define lanes_expand LANES(lanes_expand)
 
 #if LANES_WIDTH == 1
 
@@ -295,6 +301,52 @@ LANES_INLINE lanes_d lanes_sqrt(lanes_d v)
     return (lanes_d)vsqrtq_f64((float64x2_t)v);
 #else
     return sqrt(v);
+#endif
+}
+
+/* ---- lanes side by side ---- */
+
+LANES_INLINE size_t lanes_count(lanes_m m)
+{
+#if LANES_WIDTH == 8
+    return (size_t)__builtin_popcount(m);
+#elif LANES_WIDTH == 1
+    return (size_t)m;
+#else
+    size_t count = 0;
+    for (size_t l = 0; l < LANES_WIDTH; l++)
+        count += (size_t)(m[l] & 1);
+    return count;
+#endif
+}
+
+LANES_INLINE void lanes_compress(double *p, lanes_d v, lanes_m m)
+{
+#if LANES_WIDTH == 8
+    _mm512_storeu_pd(p, _mm512_maskz_compress_pd(m, (__m512d)v));
+#elif LANES_WIDTH == 1
+    *p = v;
+    (void)m;
+#else
+    for (size_t l = 0, k = 0; l < LANES_WIDTH; l++) {
+        p[k] = v[l];
+        k += (size_t)(m[l] & 1);
+    }
+#endif
+}
+
+LANES_INLINE lanes_d lanes_expand(lanes_d v, const double *p, lanes_m m)
+{
+#if LANES_WIDTH == 8
+    return (lanes_d)_mm512_mask_expand_pd((__m512d)v, m, _mm512_loadu_pd(p));
+#elif LANES_WIDTH == 1
+    return m ? *p : v;
+#else
+    for (size_t l = 0, k = 0; l < LANES_WIDTH; l++) {
+        v[l] = m[l] ? p[k] : v[l];
+        k += (size_t)(m[l] & 1);
+    }
+    return v;
 #endif
 }
 

@@ -1,5 +1,5 @@
-/* Private. Circles, disks and frames in lanes: what the kernels of shapes share. Included by lanes.h,
- * once for each level. */
+/* Private. Circles, disks and frames in lanes: what the kernels of shapes share. Included by
+ * lanes.h, once for each level. */
 
 /* cos(2 pi t) and sin(2 pi t) for t in [0, 1], each within 1.5 ulp. */
 LANES_INLINE void LANES(circle)(lanes_d *c, lanes_d *s, lanes_d t)

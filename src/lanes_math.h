@@ -2,8 +2,8 @@
  * One lane of them is the scalar function of the same name in elementary.h, which states its
  * accuracy.
  *
- * Each one reduces its argument exactly or with a compensated remainder, evaluates a polynomial, and
- * puts the result together so that only the last step rounds at full size.
+ * Each one reduces its argument exactly or with a compensated remainder, evaluates a polynomial,
+ * and puts the result together so that only the last step rounds at full size.
  *
  * What only special values need is left out where no lane has one: `plain`. A lane gets the same
  * bits either way, and the branch is one that processors foresee.
@@ -87,15 +87,13 @@ LANES_INLINE void LANES(sincospi_near)(lanes_d *s, lanes_d *c, lanes_d a)
     *c = lanes_double(other) + 0.0;
 }
 
-/* First a multiple of 2^20 is taken away; from 2^53 on every x is even. */
+/* First a multiple of 2^20 is taken away, exactly. From 2^53 on x is even, and so is the rest. */
 LANES_INLINE void LANES(sincospi)(lanes_d *s, lanes_d *c, lanes_d x)
 {
     const uint64_t sign = UINT64_C(0x8000000000000000);
     lanes_d a = lanes_abs(x);
-    if (!lanes_every(lanes_less(a, lanes_all(0x1p20)))) {
-        a = lanes_pick(lanes_less(a, lanes_all(0x1p53)), a, a - a);
+    if (!lanes_every(lanes_less(a, lanes_all(0x1p20))))
         a -= (a + 0x1.8p72) - 0x1.8p72;
-    }
     LANES(sincospi_near)(s, c, a);
     *s = lanes_double(lanes_bits(*s) ^ (lanes_bits(x) & sign));
 }
@@ -126,8 +124,8 @@ LANES_INLINE lanes_d LANES(log_core)(lanes_d k, lanes_d f, lanes_d c)
     return k * LANES_LN2_HI - ((half - low) - f);
 }
 
-/* The exponent k of a normal x = m 2^k with m in [sqrt(1/2), sqrt(2)), and m. The exponent becomes a
- * double in the low bits of 2^52. */
+/* The exponent k of a normal x = m 2^k with m in [sqrt(1/2), sqrt(2)), and m. The exponent becomes
+ * a double in the low bits of 2^52. */
 LANES_INLINE lanes_d LANES(log_split)(lanes_d *m, lanes_d x)
 {
     const uint64_t offset = UINT64_C(0x3ff0000000000000) - UINT64_C(0x3fe6a09e667f3bcd);
@@ -183,8 +181,9 @@ LANES_INLINE lanes_d LANES(log1p)(lanes_d x)
 
 /* ---- exponential -------------------------------------------------------------------------- */
 
-/* x + c = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r and k. x is in the
- * range of the exponents, c below 1e-4. The polynomial is (exp(r) - 1 - r) / r^2, to 1.1e-16. */
+/* x + c = k ln 2 + r + low with |r| <= 0.347: returns exp(r + low) - 1 - r, and r and k. x is in
+ * the range of the exponents, |c| below 1e-4. The polynomial is (exp(r) - 1 - r) / r^2, to
+ * 1.1e-16. */
 LANES_INLINE lanes_d LANES(exp_core)(lanes_d *r, lanes_u *k, lanes_d x, lanes_d c)
 {
     const lanes_d shifted = x * 0x1.71547652b82fep+0 + LANES_SHIFT;
@@ -245,10 +244,10 @@ LANES_INLINE lanes_d LANES(expm1)(lanes_d x)
 
 /* ---- cube root ---------------------------------------------------------------------------- */
 
-/* x = m 2^(3 q + r) with m in [sqrt(1/2), sqrt(2)) and r = -1, 0, 1. The quadratics in r are 2^r and
- * its cube root; the polynomial is the cube root of m to 1.4e-5. That product is rounded to 17 bits,
- * so its cube y^3 is exact, and so is a - y^3 for a = m 2^r. With d = (a - y^3) / y^3 the root is
- * y (1 + d)^(1/3) = y (1 + d/3 - d^2/9 + 5 d^3/81), to 1e-18. */
+/* x = m 2^(3 q + r) with m in [sqrt(1/2), sqrt(2)) and r = -1, 0, 1. The quadratics in r are 2^r
+ * and its cube root; the polynomial is the cube root of m, to 1.4e-5. The product y of these roots
+ * is rounded to 17 bits, so y^3 is exact, and so is a - y^3 for a = m 2^r. With d = (a - y^3) / y^3
+ * the root is y (1 + d)^(1/3) = y (1 + d/3 - d^2/9 + 5 d^3/81), to 1e-18. */
 LANES_INLINE lanes_d LANES(cbrt)(lanes_d x)
 {
     const lanes_d size = lanes_abs(x), inf = lanes_all(LANES_INF);
@@ -302,36 +301,30 @@ LANES_INLINE lanes_d LANES(atan_core)(lanes_d t)
 }
 
 /* The first octant by t = low / high; above tan(pi/8) its distance from 1/4 by (t - 1)/(t + 1). The
- * other octants are reflections, all about exact numbers. Of zeros and infinities only equal pairs
- * need care, and where low + high overflows both are halved. */
+ * other octants are reflections, all about exact numbers. Both zero or both infinite stand for the
+ * numbers 0, 1 and 1, 1. Both are halved where low + high could overflow; the only digits lost so
+ * are of a t that is zero. */
 LANES_INLINE lanes_d LANES(atan2pi)(lanes_d y, lanes_d x)
 {
     const lanes_d ax = lanes_abs(x), ay = lanes_abs(y), zero = lanes_all(0), one = lanes_all(1);
-    const int plain =
-        lanes_every(lanes_and(lanes_less(zero, ax + ay), lanes_less(ax + ay, lanes_all(0x1p1000))));
     lanes_d high = lanes_max(ax, ay), low = lanes_min(ax, ay), t, turned, angle;
     lanes_m far;
-    if (!plain) {
+    if (!lanes_every(
+            lanes_and(lanes_less(zero, ax + ay), lanes_less(ax + ay, lanes_all(0x1p1000))))) {
         const lanes_m equal = lanes_equal(ax, ay);
-        low = lanes_pick(equal, lanes_pick(lanes_equal(ax, zero), zero, one), low);
-        high = lanes_pick(equal, one, high);
+        const lanes_m large = lanes_less(lanes_all(0x1p1000), high);
+        const lanes_m numbers = lanes_and(lanes_equal(x, x), lanes_equal(y, y));
+        const lanes_d scale = lanes_pick(large, lanes_all(0.5), one);
+        low = lanes_pick(equal, lanes_pick(lanes_equal(ax, zero), zero, one), low * scale);
+        high = lanes_pick(equal, one, high * scale);
+        high = lanes_pick(numbers, high, lanes_all(LANES_NAN));
     }
     t = low / high;
-    far = lanes_less(lanes_all(0x1.a827999fcef32p-2), t);
-    if (!plain) {
-        const lanes_d scale =
-            lanes_pick(lanes_less(lanes_all(0x1p1000), high), lanes_all(0.5), one);
-        low *= scale;
-        high *= scale;
-    }
     turned = (low - high) / (low + high);
+    far = lanes_less(lanes_all(0x1.a827999fcef32p-2), t);
     angle = lanes_pick(far, lanes_all(0.25), zero) + LANES(atan_core)(lanes_pick(far, turned, t));
     angle = lanes_pick(lanes_less(ax, ay), 0.5 - angle, angle);
     angle = lanes_pick(lanes_less(lanes_copysign(one, x), zero), 1.0 - angle, angle);
-    if (!plain) {
-        const lanes_m numbers = lanes_and(lanes_equal(x, x), lanes_equal(y, y));
-        angle = lanes_pick(numbers, angle, lanes_all(LANES_NAN));
-    }
     return lanes_copysign(angle, y);
 }
 
@@ -355,7 +348,7 @@ LANES_INLINE lanes_d LANES(asin_core)(lanes_d s, lanes_d w)
 }
 
 /* In the middle 1/2 - asin(x)/pi. For |x| > 1/2 twice the arc sine of s = sqrt((1 - |x|)/2), where
- * what is below the root is exact; and the reflection of it for negative x. Below the root of |x| > 1 is a negative number: NaN. */
+ * what is below the root is exact, and negative for |x| > 1; reflected for negative x. */
 LANES_INLINE lanes_d LANES(acospi)(lanes_d x)
 {
     const lanes_d size = lanes_abs(x), z = 0.5 - 0.5 * size;
@@ -371,9 +364,10 @@ LANES_INLINE lanes_d LANES(acospi)(lanes_d x)
 /* ---- error function, normal probability --------------------------------------------------- */
 
 /* erfc(a) = v 2^k for 0 <= a <= 27.5, where high + low = -a^2, |low| < 1e-4:
- * exp(-a^2) (1 + s Q(s)) / (1 + 2 a) with s = a / (a + 4). What that leaves for 1 + s Q is between 1
- * and 1.3 and smooth at infinity too (M. Schonfelder 1978, Chebyshev expansions for the error and
- * related functions, Mathematics of Computation 32). Q is a polynomial in s - 7/16, to 9e-17. */
+ * exp(-a^2) (1 + s Q(s)) / (1 + 2 a) with s = a / (a + 4). That leaves for 1 + s Q a function
+ * between 1 and 1.3 that is smooth at infinity too (M. Schonfelder 1978, Chebyshev expansions for
+ * the error and related functions, Mathematics of Computation 32). Q is a polynomial in s - 7/16,
+ * to 9e-17; its first terms stand alone because even and odd parts cancel where a is large. */
 LANES_INLINE lanes_d LANES(erfc_core)(lanes_u *k, lanes_d a, lanes_d high, lanes_d low)
 {
     const lanes_d s = a / (a + 4.0);
@@ -539,25 +533,28 @@ LANES_INLINE lanes_d LANES(normal_outer)(lanes_d u)
  * one: they are gathered, computed side by side and put back. */
 static inline void LANES(normal_quantiles)(double *z, const double *u, size_t n)
 {
-    double outer[LANES_TILE];
-    uint16_t at[LANES_TILE];
-    for (size_t start = 0; start < n; start += LANES_TILE) {
+    double outer[LANES_TILE + LANES_WIDTH];
+    lanes_m tail[LANES_TILE / LANES_WIDTH];
+    for (size_t start = 0; start < n; start += LANES_TILE, u += LANES_TILE, z += LANES_TILE) {
         const size_t m = n - start < LANES_TILE ? n - start : LANES_TILE;
-        size_t tails = 0;
-        for (size_t i = 0; i < m; i++) {
-            outer[tails] = u[start + i];
-            at[tails] = (uint16_t)i;
-            tails += buffon_priv_abs(u[start + i] - 0.5) <= LANES_NORMAL_MIDDLE ? 0 : 1;
-        }
+        size_t count = 0;
         for (size_t i = 0; i < m; i += LANES_WIDTH) {
-            const lanes_d q = lanes_load(u + start + i, m - i) - 0.5;
-            lanes_store(z + start + i, LANES(normal_middle)(q), m - i);
+            const lanes_d v = lanes_load(u + i, m - i), q = v - 0.5;
+            const lanes_m t = lanes_less(lanes_all(LANES_NORMAL_MIDDLE), lanes_abs(q));
+            tail[i / LANES_WIDTH] = t;
+            lanes_compress(outer + count, v, t);
+            count += lanes_count(t);
+            lanes_store(z + i, LANES(normal_middle)(q), m - i);
         }
-        for (size_t i = 0; i < tails; i += LANES_WIDTH) {
-            const lanes_d v = lanes_load(outer + i, tails - i);
-            lanes_store(outer + i, LANES(normal_outer)(v), tails - i);
+        for (size_t i = 0; i < count; i += LANES_WIDTH) {
+            const lanes_d v = lanes_load(outer + i, count - i);
+            lanes_store(outer + i, LANES(normal_outer)(v), LANES_WIDTH);
         }
-        for (size_t i = 0; i < tails; i++)
-            z[start + at[i]] = outer[i];
+        count = 0;
+        for (size_t i = 0; i < m; i += LANES_WIDTH) {
+            const lanes_m t = tail[i / LANES_WIDTH];
+            lanes_store(z + i, lanes_expand(lanes_load(z + i, m - i), outer + count, t), m - i);
+            count += lanes_count(t);
+        }
     }
 }

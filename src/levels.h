@@ -4,12 +4,12 @@
  *     #include "levels.h"
  *
  * A kernel in that file is `static void LANES(sphere_map)(...)`, written with the lanes of lanes.h
- * and the functions of lanes_math.h; it returns nothing. LEVELS_RUN(sphere_map, (x, y, n)) calls the
- * one for the level in use.
+ * and the functions of lanes_math.h; it returns nothing. LEVELS_RUN(sphere_map, (x, y, n)) calls
+ * the one for the level in use.
  *
- * The instructions are asked for by pragmas around the kernels, so a build needs no flags for single
- * files; ifunc and target_clones, which clang and musl lack, are not needed either. Included without
- * KERNELS this file says which levels there are: LEVELS_HAVE_128 and LEVELS_HAVE_X86.
+ * The instructions are asked for by pragmas around the kernels, so a build needs no flags for
+ * single files; ifunc and target_clones, which clang and musl lack, are not needed either. Included
+ * without KERNELS this file says which levels there are: LEVELS_HAVE_128 and LEVELS_HAVE_X86.
  */
 #ifndef LEVELS_HAVE_128
 

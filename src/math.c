@@ -1,3 +1,4 @@
+/* The functions of lanes_math.h, as batches of the level in use and as scalars. */
 #include "guard.h"
 
 #include <buffon/interval.h>

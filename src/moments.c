@@ -6,8 +6,9 @@
 #include "exact.h"
 #include "stats_priv.h"
 
-/* Value i belongs to lane i mod 16. A row is four values of each lane, which are added to one another
- * first. Lanes start afresh every MOMENTS_CHUNK values: fewer numbers in a row means less rounding.
+/* Value i belongs to lane i mod 16. A row is four values of each lane, which are added to one
+ * another first. Lanes start afresh every MOMENTS_CHUNK values: fewer numbers in a row means less
+ * rounding.
  */
 enum { MOMENTS_LANES = 16, MOMENTS_ROW = 4 * MOMENTS_LANES, MOMENTS_CHUNK = 1024 };
 

@@ -1,7 +1,7 @@
 /* Private. The kernels of moments.c: included by levels.h.
  *
- * The 16 lanes of a sum are taken two vectors at a time, each pair through all the rows: what a pair
- * gathers stays in registers. */
+ * The 16 lanes of a sum are taken two vectors at a time, each pair through all the rows: what a
+ * pair gathers stays in registers. */
 
 /* Whole rows about the number m, from fresh sums r and q; min and max are widened. */
 static void LANES(moments_rows)(double *r, double *q, double *min, double *max, const double *y,

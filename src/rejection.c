@@ -208,8 +208,9 @@ buffon_status buffon_rejection_sample(double *x, size_t n, buffon_rejection_repo
     if (status == BUFFON_OK)
         status = rejection_tile_make(&tile, g);
     if (status == BUFFON_OK) {
+        const uint64_t wanted = n;
         if (max_tries == 0)
-            max_tries = n < UINT64_MAX / 2000 ? 1000 * (uint64_t)n + 1000 : UINT64_MAX;
+            max_tries = wanted < UINT64_MAX / 2000 ? 1000 * wanted + 1000 : UINT64_MAX;
         status = rejection_loop(x, n, &own, &tile, f, g, envelope, rng, max_tries);
     }
     free(tile.memory);

@@ -32,8 +32,8 @@ LANES_INLINE void LANES(rng_round)(lanes_u c[4], uint32_t k0, uint32_t k1)
     c[3] = p;
 }
 
-/* Where the lanes of a row begin: words 2h and 2h + 1 of lane l are block 2l + h of the row. The two
- * blocks of a lane go side by side, to hide the latency of the products. */
+/* Where the lanes of a row begin: words 2h and 2h + 1 of lane l are block 2l + h of the row. The
+ * two blocks of a lane go side by side, to hide the latency of the products. */
 static void LANES(rng_start)(uint64_t state[4][RNG_LANES], const uint32_t k[4], uint64_t row)
 {
     static const uint64_t block[RNG_LANES] = {0,  2,  4,  6,  8,  10, 12, 14,

@@ -107,7 +107,7 @@ buffon_priv_spread buffon_priv_spread_pairs(const buffon_priv_record *record, si
                                             size_t a, size_t b)
 {
     const size_t variant = buffon_priv_spread_variant(record, stratum),
-                 first = variant * record->shape.outputs;
+                 first = variant * (size_t)record->shape.outputs;
     const size_t end = (size_t)record->shape.replicates;
     uint64_t limbs[BUFFON_STATS_SQUARES];
     buffon_stats sa, sb;

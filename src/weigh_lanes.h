@@ -1,7 +1,7 @@
 /* Private. The kernel of weigh.c: included by levels.h. */
 
-/* y = f / pdf, and the number of points up to the first vector in which a pdf is not a normal number,
- * which plain division does not do. */
+/* y = f / pdf, and the number of points up to the first vector in which a pdf is not a normal
+ * number, which plain division does not do. */
 static void LANES(weigh_divide)(size_t *done, double *y, const double *f, const double *pdf,
                                 size_t n)
 {

@@ -8,14 +8,14 @@
 #include "exact.h"
 #include "worker.h"
 
-/* The arrays of a block lie one below the other, each a little more than its size under the one it is
- * computed from. At a whole number of pages the processor would take each load for one of what was
- * just stored; so what it could take it for is stored later. */
+/* The arrays of a block lie one below the other, each a little more than its size under the one it
+ * is computed from. At a whole number of pages the processor would take each load for one of what
+ * was just stored; so what it could take it for is stored later. */
 #define WORKER_LINE 8 /* doubles of a cache line, where an array begins */
 #define WORKER_GAP (2 * WORKER_LINE)
 
-/* The most uniforms, coordinates and components of any stratum; of coordinates those that do not lie
- * where their uniforms were. */
+/* The most uniforms, coordinates and components of any stratum; of coordinates those that do not
+ * lie where their uniforms were. */
 typedef struct worker_sizes {
     size_t uniforms, dim, apart, components;
 } worker_sizes;
@@ -86,8 +86,8 @@ void buffon_priv_worker_free(buffon_priv_worker *worker)
     worker->moments = NULL;
 }
 
-/* f[components * n] at x[dim * n]. A function of one point gets the points of a cache line at a time:
- * the lines of many coordinates lie pages apart, and the cache keeps few of those. */
+/* f[components * n] at x[dim * n]. A function of one point gets the points of a cache line at a
+ * time: the lines of many coordinates lie pages apart, and the cache keeps few of those. */
 static buffon_status worker_integrand(buffon_priv_worker *worker, double *f,
                                       const buffon_integrand *integrand, size_t n)
 {

@@ -20,8 +20,8 @@ static inline double squares(const double *x, void *ctx)
 }
 
 /* What we integrate, for each level compiled for its instructions, as -march would: an integrand is
- * the caller's, and who runs it by the million lets the compiler know his machine. Never inlined, or
- * the compiler would turn loops whose arrays it knows. */
+ * the caller's, and who runs it by the million lets the compiler know his machine. Never inlined,
+ * or the compiler would turn loops whose arrays it knows. */
 #if defined(__GNUC__)
 #define SQUARES_APART __attribute__((noinline))
 #else
