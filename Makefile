@@ -71,8 +71,8 @@ endif
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all demo test unit check bits bench bench-peers battery docs install uninstall dist asan \
-        tsan ubsan memcheck coverage fuzz programs examples clean help force
+.PHONY: all demo test unit check bits cross bench bench-peers battery docs amalgamation install \
+        uninstall dist asan tsan ubsan memcheck coverage fuzz programs examples clean help force
 
 all: $(static) $(shared) ## the static and the shared library, in build/
 
@@ -181,6 +181,9 @@ check: test ## the tests, and bits
 bits: ## the same bits from every compiler and level of optimisation here
 	@sh tests/bits.sh
 
+cross: ## bits and exact tests on other processors: ARM, s390x, 32-bit x86
+	@sh tests/cross.sh
+
 battery: $(BUILD)/tests/battery ## dieharder over interleaved streams: hours
 	@sh tests/battery.sh $(BUILD)/tests/battery
 
@@ -258,6 +261,16 @@ $(BUILD)/docs/reference.md: docs/reference.awk $(headers)
 	@mkdir -p $(@D)
 	@echo "  DOCS  $@"
 	@awk -f docs/reference.awk include/buffon/buffon.h > $@
+
+one_file := $(BUILD)/amalgamation/buffon.c $(BUILD)/amalgamation/buffon.h
+
+amalgamation: $(one_file) ## the library as one source and one header, in build/amalgamation/
+$(BUILD)/amalgamation/buffon.c: parts = $(sources)
+$(BUILD)/amalgamation/buffon.h: parts = include/buffon/buffon.h
+$(one_file): src/amalgamation.awk LICENSE $(sources) $(headers) $(wildcard src/*.h)
+	@mkdir -p $(@D)
+	@echo "  JOIN  $@"
+	@awk -v version=$(VERSION) -f $< $(parts) > $@
 
 below_prefix = $(patsubst $(PREFIX)/%,$${prefix}/%,$(1))
 

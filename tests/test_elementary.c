@@ -98,6 +98,21 @@ static long double test_normall(double u)
                  : x + (0.5L * erfcl(x * root) - (1 - (long double)u)) / density;
 }
 
+/* The exponent is z^2/2, without the rounding of z / sqrt(2): one step from that quotient. */
+static long double test_cdfl(double z)
+{
+    const long double x = -z * sqrtl(0.5L), square = (long double)z * z;
+    const long double lost = fmal((long double)z, (long double)z, -square);
+    const long double step = (fmal(-x, x, 0.5L * square) + 0.5L * lost) / (2 * x);
+    if (!(fabsl(x) > 1e-9L && fabsl(x) < 30)) {
+        return 0.5L * erfcl(x);
+    }
+    return 0.5L * (erfcl(x) - 2 / sqrtl(PI_L) * expl(-x * x) * step);
+}
+
+static long double test_cbrtl(double x) { return cbrtl((long double)x); }
+static long double test_acospil(double x) { return acosl((long double)x) / PI_L; }
+static long double test_erfcl(double x) { return erfcl((long double)x); }
 static long double test_logl(double x) { return logl((long double)x); }
 static long double test_log1pl(double x) { return log1pl((long double)x); }
 static long double test_expl(double x) { return expl((long double)x); }
@@ -169,6 +184,45 @@ static double test_probability(int kind)
     }
 }
 
+static double test_root(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(-8, 8);
+    case 1: return test_any();
+    case 2: return test_uniform(-1, 1) * 0x1p-1022;
+    case 3: return test_near(ldexp(1, (int)(test_word() % 2000) - 1000));
+    default: return test_near(ldexp(sqrt(0.5), (int)(test_word() % 2000) - 1000));
+    }
+}
+
+static double test_cosine(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(-1, 1);
+    case 1: return test_near(test_word() & 1 ? -0.5 : 0.5);
+    case 2: return 1 - test_uniform(0, 1) * test_uniform(0, 0x1p-20);
+    case 3: return -1 + test_uniform(0, 1) * test_uniform(0, 0x1p-20);
+    default: return test_uniform(-1, 1) * test_uniform(0, 0x1p-20);
+    }
+}
+
+static double test_deviate(int kind)
+{
+    switch (kind) {
+    case 0: return test_uniform(-7, 28);
+    case 1: return test_uniform(-1, 1);
+    case 2: return test_uniform(-1, 1) * test_uniform(0, 0x1p-20);
+    case 3: return test_uniform(25.5, 27.3);
+    default: return test_any();
+    }
+}
+
+static double test_normal(int kind)
+{
+    const double x = kind == 3 ? test_uniform(35.5, 38.6) : 1.42 * test_deviate(kind);
+    return -x;
+}
+
 static const test_function test_functions[] = {
     {"sinpi", buffon_priv_sinpi, test_sinpil, test_turns, 5, 1.4},
     {"cospi", buffon_priv_cospi, test_cospil, test_turns, 5, 1.4},
@@ -176,7 +230,46 @@ static const test_function test_functions[] = {
     {"log1p", buffon_priv_log1p, test_log1pl, test_above_minus_one, 5, 0.9},
     {"exp", buffon_priv_exp, test_expl, test_exponent, 5, 1.0},
     {"expm1", buffon_priv_expm1, test_expm1l, test_exponent, 5, 1.4},
+    {"cbrt", buffon_priv_cbrt, test_cbrtl, test_root, 5, 0.6},
+    {"acospi", buffon_priv_acospi, test_acospil, test_cosine, 5, 1.8},
+    {"erfc", buffon_priv_erfc, test_erfcl, test_deviate, 5, 4},
+    {"normal_cdf", buffon_priv_normal_cdf, test_cdfl, test_normal, 5, 5},
     {"normal_quantile", buffon_priv_normal_quantile, test_normall, test_probability, 5, 8},
+};
+
+/* Where a reduction, a polynomial or a special case begins. */
+static const struct {
+    double (*f)(double);
+    long double (*reference)(double);
+    double at[8], bound;
+} test_seams[] = {
+    {buffon_priv_sinpi, test_sinpil, {0.25, -0.75, 0x1p-1022, 0x1p20, 0x1p52, 0x1p53}, 1.4},
+    {buffon_priv_cospi, test_cospil, {0.25, -0.75, 0x1p-1022, 0x1p20, 0x1p52, 0x1p53}, 1.4},
+    {buffon_priv_log,
+     test_logl,
+     {0x1p-1022, 0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp0, 0x1.6a09e667f3bcdp-1023, DBL_MAX},
+     0.9},
+    {buffon_priv_log1p,
+     test_log1pl,
+     {0x1p-54, -0x1p-54, -0x1.2bec333018866p-2, 0x1.a827999fcef34p-2, 1, -1, 0x1p53},
+     0.9},
+    {buffon_priv_exp,
+     test_expl,
+     {0x1.62e42fefa39efp-2, -0x1.62e42fefa39efp-2, 708, -708, 0x1.62e42fefa39efp9, -744.4, 0x1p-54},
+     1},
+    {buffon_priv_expm1,
+     test_expm1l,
+     {0x1p-54, -0x1p-54, 0x1.62e42fefa39efp-2, -0x1.62e42fefa39efp-2, 44, -44, 690,
+      0x1.62e42fefa39efp9},
+     1.4},
+    {buffon_priv_cbrt, test_cbrtl, {0x1p-1022, 0x1p-1074, 0x1.6a09e667f3bcdp0, 8, DBL_MAX}, 0.6},
+    {buffon_priv_acospi, test_acospil, {0.5, -0.5, 1, -1, 0x1p-54, 0x1p-1022}, 1.8},
+    {buffon_priv_erfc, test_erfcl, {0x1p-54, -0x1p-54, 26, -26, 26.543, 27.2, -5.9, 1}, 4},
+    {buffon_priv_normal_cdf, test_cdfl, {0x1p-54, -0x1p-54, 36, -36, -37.52, -38.4, 8.3, -1}, 5},
+    {buffon_priv_normal_quantile,
+     test_normall,
+     {0.075, 0.925, 0x1.e8a37a45fc32ep-37 /* exp(-25) */, 0x1p-1022, 0.5, 0.25, 0.75, 0x1p-1070},
+     8},
 };
 
 static void test_accuracy(const test_function *t)
@@ -196,6 +289,27 @@ static void test_accuracy(const test_function *t)
     }
     tap_ok(worst <= t->bound, "%s: at most %.2f ulp, of %.1f allowed (at %a)", t->name, worst,
            t->bound, where);
+}
+
+static void test_accuracy_at_seams(void)
+{
+    const size_t n = sizeof test_seams / sizeof *test_seams;
+    size_t i, j, wrong = 0;
+    int k;
+    test_state = 6;
+    for (i = 0; i < n; i++) {
+        for (j = 0; j < 8; j++) {
+            for (k = 0; k < 300; k++) {
+                const double seam = test_seams[i].at[j], x = test_near(test_near(seam));
+                const double ulps = test_ulps(test_seams[i].f(x), test_seams[i].reference(x));
+                if (!(ulps <= test_seams[i].bound)) {
+                    tap_note("function %zu: %.2f ulp at %a", i, ulps, x);
+                    wrong++;
+                }
+            }
+        }
+    }
+    tap_ok(wrong == 0, "errors in ulps beside the seams of %zu functions", n);
 }
 
 static void test_accuracy_angle(void)
@@ -308,6 +422,39 @@ static const struct {
     {"cospi", buffon_priv_cospi, INFINITY, NAN},
     {"sinpi", buffon_priv_sinpi, NAN, NAN},
     {"cospi", buffon_priv_cospi, NAN, NAN},
+    {"cbrt", buffon_priv_cbrt, 0.0, 0.0},
+    {"cbrt", buffon_priv_cbrt, -0.0, -0.0},
+    {"cbrt", buffon_priv_cbrt, -27, -3},
+    {"cbrt", buffon_priv_cbrt, 0x1p-1074, 0x1p-358},
+    {"cbrt", buffon_priv_cbrt, DBL_MAX, 0x1.428a2f98d728bp+341},
+    {"cbrt", buffon_priv_cbrt, INFINITY, INFINITY},
+    {"cbrt", buffon_priv_cbrt, -INFINITY, -INFINITY},
+    {"cbrt", buffon_priv_cbrt, NAN, NAN},
+    {"acospi", buffon_priv_acospi, 1, 0.0},
+    {"acospi", buffon_priv_acospi, -1, 1},
+    {"acospi", buffon_priv_acospi, 0.0, 0.5},
+    {"acospi", buffon_priv_acospi, -0.0, 0.5},
+    {"acospi", buffon_priv_acospi, 0.5, 1.0 / 3},
+    {"acospi", buffon_priv_acospi, 1 + DBL_EPSILON, NAN},
+    {"acospi", buffon_priv_acospi, -1 - DBL_EPSILON, NAN},
+    {"acospi", buffon_priv_acospi, -INFINITY, NAN},
+    {"acospi", buffon_priv_acospi, NAN, NAN},
+    {"erfc", buffon_priv_erfc, 0.0, 1},
+    {"erfc", buffon_priv_erfc, -0.0, 1},
+    {"erfc", buffon_priv_erfc, 0x1p-1074, 1},
+    {"erfc", buffon_priv_erfc, 27.3, 0.0},
+    {"erfc", buffon_priv_erfc, 1e300, 0.0},
+    {"erfc", buffon_priv_erfc, -6, 2},
+    {"erfc", buffon_priv_erfc, INFINITY, 0.0},
+    {"erfc", buffon_priv_erfc, -INFINITY, 2},
+    {"erfc", buffon_priv_erfc, NAN, NAN},
+    {"normal_cdf", buffon_priv_normal_cdf, 0.0, 0.5},
+    {"normal_cdf", buffon_priv_normal_cdf, -0.0, 0.5},
+    {"normal_cdf", buffon_priv_normal_cdf, -38.6, 0.0},
+    {"normal_cdf", buffon_priv_normal_cdf, 8.5, 1},
+    {"normal_cdf", buffon_priv_normal_cdf, -INFINITY, 0.0},
+    {"normal_cdf", buffon_priv_normal_cdf, INFINITY, 1},
+    {"normal_cdf", buffon_priv_normal_cdf, NAN, NAN},
     {"normal_quantile", buffon_priv_normal_quantile, 0, -INFINITY},
     {"normal_quantile", buffon_priv_normal_quantile, 1, INFINITY},
     {"normal_quantile", buffon_priv_normal_quantile, 0.5, 0},
@@ -443,6 +590,11 @@ static void test_bits(void)
     test_frozen("exp", buffon_priv_exp, test_frozen_signed, UINT64_C(0xa72a788cc39d5e46));
     test_frozen("expm1", buffon_priv_expm1, test_frozen_signed, UINT64_C(0xa438af50310d0e03));
     test_frozen("atan2pi", test_angle, test_frozen_signed, UINT64_C(0x3b10e62190d21e63));
+    test_frozen("cbrt", buffon_priv_cbrt, test_frozen_signed, UINT64_C(0xdd7d5bdf8fa21889));
+    test_frozen("acospi", buffon_priv_acospi, test_frozen_signed, UINT64_C(0xd9caccb3a0755428));
+    test_frozen("erfc", buffon_priv_erfc, test_frozen_signed, UINT64_C(0x9e0bf41fa8e8270a));
+    test_frozen("normal_cdf", buffon_priv_normal_cdf, test_frozen_signed,
+                UINT64_C(0xdd8803624c0ebc72));
     test_frozen("normal_quantile", buffon_priv_normal_quantile, test_frozen_unit,
                 UINT64_C(0x62cf1e753740baae));
 }
@@ -475,6 +627,7 @@ int main(void)
         for (i = 0; i < sizeof test_functions / sizeof *test_functions; i++) {
             test_accuracy(&test_functions[i]);
         }
+        test_accuracy_at_seams();
         test_accuracy_angle();
     } else {
         tap_ok(1, "errors in ulps # SKIP long double is no wider than double");

@@ -1,7 +1,8 @@
 /* Memory that runs out and threads that do not start, at every place where they can: nothing leaks,
- * the status says so, what was done before stays, and the same call made again succeeds.
+ * the status says so, what was done before stays, and the same call made again succeeds. And how
+ * much memory and which threads a run asks for at all.
  *
- * The linker puts this file's allocation functions in place of the system's.
+ * The linker puts this file's allocation functions and clock in place of the system's.
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -10,12 +11,14 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "leap.h"
 #include "problems.h"
 #include "tap.h"
 
 /* ---- the functions that fail ---- */
 
 static atomic_long live, allocations, fail_at, fail_all; /* fail_at 0: never */
+static atomic_llong bytes;                               /* asked for, those freed included */
 static atomic_long threads_started, thread_fails_at;
 
 void *__real_malloc(size_t size);
@@ -43,11 +46,13 @@ static void *counted(void *p)
 
 void *__wrap_malloc(size_t size)
 {
+    bytes += (long long)size;
     return fails() ? NULL : counted(__real_malloc(size));
 }
 
 void *__wrap_calloc(size_t n, size_t size)
 {
+    bytes += (long long)(n * size);
     return fails() ? NULL : counted(__real_calloc(n, size));
 }
 
@@ -183,6 +188,90 @@ static void test_threads(const problem *p)
     tap_ok(same && live == 0, "%s: threads that do not start are done without", p->name);
 }
 
+/* Memory that is short for helpers is asked for once, not again in each of many rounds. */
+static void test_helpers(void)
+{
+    const problem *p = &problems[1];
+    const buffon_run run = {.samples = 40000, .block = 16, .threads = 4};
+    buffon_estimate expected[PROBLEMS_COMPONENTS], e[PROBLEMS_COMPONENTS];
+    int good = 1, less = 0;
+    arm(0, 0);
+    const buffon_status status = p->solve(expected, run);
+    const long most = allocations;
+    for (long n = 1; n <= most; n++) {
+        arm(n, 0);
+        const buffon_status now = p->solve(e, run);
+        less += now >= 0 && allocations < most;
+        good &= live == 0 && allocations <= most;
+        good &=
+            now == BUFFON_E_NOMEM || (now == status && same_estimates(e, expected, p->components));
+    }
+    arm(0, 0);
+    tap_ok(good && less > 5 * THREADED, "helpers without memory are done without");
+}
+
+/* ---- what a run asks for ---- */
+
+/* Threads that a run of the first problem starts when the clock goes on by `step` between looks. */
+static long starts(double step, buffon_run run)
+{
+    buffon_estimate e[PROBLEMS_COMPONENTS];
+    leap_seconds = step;
+    threads_started = 0;
+    if (problems[0].solve(e, run) < 0)
+        exit(1);
+    leap_seconds = 1;
+    return threads_started;
+}
+
+static void test_short(void)
+{
+    const buffon_run one = {.samples = 8 * 1024, .threads = 8};
+    const buffon_run most = {.samples = 200 * 1024, .threads = 8};
+    const buffon_run looks = {.samples = 16 * 1024, .threads = 8, .abs_tol = 1e-300};
+    tap_ok(starts(0, most) == 0, "where no time passes no thread is started");
+    tap_ok(starts(0x1p-13, one) == 0, "nor for the first 0.98 ms");
+    tap_ok(starts(0x1p-12, one) == 7 * THREADED, "but after more than 1 ms");
+    tap_ok(starts(0x1p-13, most) == 7 * THREADED, "and when there is still much to do then");
+    tap_ok(starts(0x1p-13, looks) == 7 * THREADED, "all looks of a run count together");
+}
+
+/* x0, 2 x0, ... */
+static int multiples(double *f, const double *x, size_t n, void *ctx)
+{
+    for (size_t k = 0; k < *(const size_t *)ctx; k++) {
+        for (size_t i = 0; i < n; i++)
+            f[k * n + i] = (double)(k + 1) * x[i];
+    }
+    return 0;
+}
+
+/* For each thread 8 KiB times uniforms, coordinates and components, and 64 KiB, are enough,
+ * whatever the number of samples. */
+static void test_memory(size_t dim, size_t components, uint32_t threads)
+{
+    static const uint64_t samples[] = {1, 1000, 1 << 16, 1 << 20, 3 << 20};
+    enum { COUNT = sizeof samples / sizeof *samples };
+    const double lo[32] = {0}, hi[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+                                       1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    const buffon_integrand f = {
+        .batch = multiples, .dim = dim, .components = components, .ctx = &components};
+    const long long most = (long long)threads * (long long)(8192 * (2 * dim + components) + 65536);
+    long long asked[COUNT], largest = 0;
+    for (size_t i = 0; i < COUNT; i++) {
+        buffon_estimate e[4];
+        bytes = 0;
+        if (buffon_uniform(e, &f, lo, hi,
+                           &(buffon_run){.samples = samples[i], .threads = threads}) < 0)
+            exit(1);
+        asked[i] = bytes;
+        largest = asked[i] > largest ? asked[i] : largest;
+    }
+    tap_ok(largest <= most && asked[COUNT - 1] == asked[COUNT - 2],
+           "%zu coordinates, %zu components, %u threads: %lld bytes at most, of %lld", dim,
+           components, (unsigned)threads, largest, most);
+}
+
 /* ---- single calls ---- */
 
 static void test_partial_calls(void)
@@ -258,6 +347,13 @@ int main(void)
         test_problem(&problems[i], 0, 0);
         test_problem(&problems[i], 1, i % 2);
         test_threads(&problems[i]);
+    }
+    test_helpers();
+    test_short();
+    for (uint32_t threads = 1; threads < 5; threads += 3) {
+        test_memory(1, 1, threads);
+        test_memory(2, 4, threads);
+        test_memory(32, 1, threads);
     }
     test_partial_calls();
     test_other_calls();

@@ -66,7 +66,7 @@ BUFFON_API void buffon_math_atan2pi(double *t, const double *y, const double *x,
  *
  *  Out:     t[n]  in [0, 1]; NaN outside
  *  In:      x[n]  in [-1, 1]
- *  Exact:   2 ulp; 0, 1/2 and 1 exactly
+ *  Exact:   1.8 ulp; 0, 1/2 and 1 exactly
  *  Since:   0.1
  */
 BUFFON_API void buffon_math_acospi(double *t, const double *x, size_t n);
@@ -130,7 +130,7 @@ BUFFON_API void buffon_math_erfc(double *y, const double *x, size_t n);
  *
  *  Out:     p[n]  from 0 below -38.6 to 1; 1/2 for 0
  *  In:      z[n]  any
- *  Exact:   4 ulp, of subnormal results too
+ *  Exact:   5 ulp, of subnormal results too
  *  Since:   0.1
  */
 BUFFON_API void buffon_math_normal_cdf(double *p, const double *z, size_t n);

@@ -36,7 +36,10 @@ typedef struct buffon_run {
     uint64_t samples; /* points to use, at most; 0 means 2^20. A point set may round it up */
     uint64_t seed;    /* same seed, same bits */
     uint64_t stream;  /* independent sequences of one seed */
-    uint32_t threads; /* 0 and 1: the caller's thread alone; with an executor: tasks to hand it */
+    uint32_t threads; /* 0 and 1: the caller's thread alone; with an executor: tasks to hand it.
+                       * Threads are started when a run has taken a millisecond: a shorter one
+                       * stays on the caller's thread, and of slow integrands the first block
+                       * does. Each thread needs memory for a block, whatever .samples */
     uint32_t block;   /* points evaluated at a time: a power of two from 16 to 2^20; 0 means 1024.
                        * Part of what the bits depend on. Small for integrands that take seconds */
     double abs_tol;   /* stop once the interval's half width is at most abs_tol ... */
