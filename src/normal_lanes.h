@@ -1,7 +1,7 @@
 /* Private. The kernels of normal.c: included by levels.h. */
 
-/* exp(-z^2 / 2) scale for |z| <= 40, beyond which it is 0. z^2 is a square that is exact, of a number
- * of 26 bits, and a small rest, whose exponential is a short sum. */
+/* exp(-z^2 / 2) scale for |z| < 40, from where on it is 0. z^2 is a square that is exact, of a
+ * number of 26 bits, and a small rest, whose exponential is a short sum. */
 LANES_INLINE lanes_d LANES(normal_bell)(lanes_d z, double scale)
 {
     const lanes_d size = lanes_abs(z);

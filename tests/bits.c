@@ -1,6 +1,11 @@
 /* Results in hex, for comparing builds: every line must be the same from every compiler, level of
  * optimisation, instruction set and machine (tests/bits.sh). The integrands use + - * / and sqrt
- * alone. */
+ * alone.
+ *
+ *     bits [scalar | 128 | avx2 | avx512]
+ *
+ * The argument limits the library to these instructions. The exit code is 77 where they are
+ * missing. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -298,8 +303,21 @@ static void show_stats(void)
     }
 }
 
-int main(void)
+static int limit(const char *wanted)
 {
+    for (int level = BUFFON_LEVEL_SCALAR; level <= BUFFON_LEVEL_AVX512; level++) {
+        if (strcmp(wanted, buffon_level_string((buffon_level)level)) == 0)
+            return (int)buffon_cpu_limit((buffon_level)level) == level ? 0 : 77;
+    }
+    fprintf(stderr, "bits: there is no level %s\n", wanted);
+    return 2;
+}
+
+int main(int argc, char **argv)
+{
+    const int lacking = argc > 1 ? limit(argv[1]) : 0;
+    if (lacking)
+        return lacking;
     show_rng();
     show_points();
     show_densities();

@@ -10,8 +10,8 @@ BUFFON_BEGIN
 
 /** The normal density on the line.
  *
- *  One uniform makes one normal, so stratified, antithetic and quasi-random points keep their order;
- *  Box and Muller's pairs and the ziggurat do not.
+ *  One uniform makes one normal, so stratified, antithetic and quasi-random points keep their
+ *  order; Box and Muller's pairs and the ziggurat do not.
  *
  *  In:      mean  of size 2^1022 at most
  *           sd    the standard deviation, from 2^-1022 to 2^1017

@@ -1,0 +1,58 @@
+#!/bin/sh
+# The library on other processors: 64-bit ARM, the other byte order (s390x), 32 bits (i686). On each
+# the one file, compiled by gcc and by clang with no flag that matters, has the bits of
+# tests/data/bits.txt, and the test programs that are exact or have known answers pass. Those about
+# laws and error bars would take long here and could say no more: they see the same bits.
+# A machine without its compiler or emulator is skipped by name.
+. tests/tap.sh
+. tests/same_bits.sh
+build=${BUILD:-build}/cross
+unset MAKEFLAGS MFLAGS MAKELEVEL CFLAGS CPPFLAGS LDFLAGS
+
+tests='density errors exact interval inversion layout math moments partial rejection rng saved
+    shapes stats status'
+clang=
+if command -v clang > /dev/null; then
+    clang=clang
+else
+    tap_skip "clang" "it is not installed"
+fi
+
+# machine <architecture> <flags> <levels> <what runs its programs> [more tests]
+machine()
+{
+    if ! command -v "$1-linux-gnu-gcc" > /dev/null || ! command -v "${4%% *}" > /dev/null; then
+        tap_skip "$1" "it takes $1-linux-gnu-gcc and ${4%% *}"
+        return
+    fi
+    one_file_build "$1-gcc" "$1-linux-gnu-gcc $2" &
+    if [ -n "$clang" ]; then one_file_build "$1-clang" "clang --target=$1-linux-gnu $2"; fi
+    wait
+    same_bits_levels=$3
+    for compiler in gcc $clang; do one_file_bits "$1-$compiler" "$4"; done
+    tap_run "$1: tests" "${MAKE:-make}" --no-print-directory -j"${JOBS:-2}" unit \
+        BUILD="$build/$1" CC="$1-linux-gnu-gcc" CFLAGS="-O2 $2" RUNNER="$4" \
+        WARNINGS='-Wall -Wextra -Werror' TESTS="$(printf 'test_%s ' $tests ${5:-})"
+    echo "# $1: $(printf '%s\n' "$tap_output" | tail -n 1)"
+}
+
+one_file_make "$build"
+
+# x86 runs 32-bit programs by itself, unless its system was built without them.
+loader=/usr/i686-linux-gnu/lib/ld-linux.so.2
+if $loader --version > /dev/null 2>&1; then
+    i686="$loader --library-path /usr/i686-linux-gnu/lib"
+else
+    i686='qemu-i386 -L /usr/i686-linux-gnu'
+fi
+machine i686 '-msse2 -mfpmath=sse' 'scalar 128 avx2 avx512' "$i686" 'levels points elementary tail'
+machine aarch64 '' 'scalar 128' 'qemu-aarch64 -L /usr/aarch64-linux-gnu' 'levels points tail'
+machine s390x '' scalar 'qemu-s390x -L /usr/s390x-linux-gnu'
+
+# Doubles with spare bits would give other results: the x87 is refused.
+if command -v i686-linux-gnu-gcc > /dev/null; then
+    i686-linux-gnu-gcc -fsyntax-only "$build/amalgamation/buffon.c" 2>&1 |
+        grep -q '#error .*-msse2 -mfpmath=sse'
+    tap_ok $? "the x87 is refused"
+fi
+tap_done
