@@ -184,12 +184,64 @@ static void show_densities(void)
                 {"hemisphere about", buffon_hemisphere_about(axis)},
                 {"hemisphere cosine", buffon_hemisphere_cosine()},
                 {"hemisphere cosine about", buffon_hemisphere_cosine_about(axis)},
+                {"exponential", buffon_exponential(0.25)},
+                {"normal", buffon_normal(-1.5, 3)},
                 {"quantile", buffon_inverse(&quantile)},
                 {"newton", buffon_inverse(&newton)},
                 {"table", buffon_inverse(&table)},
                 {"product", buffon_density_product(parts, 2)}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         show_density(list[i].name, &list[i].g);
+}
+
+/* ---- elementary functions ---- */
+
+/* Of numbers from -spread to spread, and with them their reciprocals. */
+static void show_function(const char *name, void (*function)(double *y, const double *x, size_t n),
+                          double spread)
+{
+    const buffon_rng_key key = {.seed = 5};
+    double x[POINTS], y[POINTS];
+    buffon_rng_uniforms_at(x, POINTS, &key, 0, 0);
+    for (size_t i = 0; i < POINTS; i++) {
+        x[i] = spread * (2 * x[i] - 1);
+        x[i] = i % 4 == 3 ? 1 / x[i] : x[i];
+    }
+    function(y, x, POINTS);
+    printf("%s: %016llx\n", name, (unsigned long long)hash_numbers(y, POINTS));
+}
+
+static void sine_over_cosine(double *y, const double *x, size_t n)
+{
+    double c[POINTS];
+    buffon_math_sincospi(y, c, x, n);
+    for (size_t i = 0; i < n; i++)
+        y[i] /= c[i];
+}
+
+static void angle_from_one(double *y, const double *x, size_t n)
+{
+    double one[POINTS];
+    for (size_t i = 0; i < n; i++)
+        one[i] = i % 2 ? -1 : 1;
+    buffon_math_atan2pi(y, x, one, n);
+}
+
+static void show_functions(void)
+{
+    show_function("sincospi", sine_over_cosine, 1e3);
+    show_function("sinpi", buffon_math_sinpi, 4);
+    show_function("cospi", buffon_math_cospi, 4);
+    show_function("atan2pi", angle_from_one, 4);
+    show_function("acospi", buffon_math_acospi, 1);
+    show_function("log", buffon_math_log, 1e9);
+    show_function("log1p", buffon_math_log1p, 2);
+    show_function("exp", buffon_math_exp, 800);
+    show_function("expm1", buffon_math_expm1, 60);
+    show_function("cbrt", buffon_math_cbrt, 1e9);
+    show_function("erfc", buffon_math_erfc, 28);
+    show_function("normal cdf", buffon_math_normal_cdf, 40);
+    show_function("normal quantile", buffon_math_normal_quantile, 1);
 }
 
 /* ---- points, generator, sampler ---- */
@@ -321,6 +373,7 @@ int main(int argc, char **argv)
     show_rng();
     show_points();
     show_densities();
+    show_functions();
     show_sampler();
     show_quantiles();
     show_intervals();
