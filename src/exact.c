@@ -68,25 +68,40 @@ static inline void exact_add(uint64_t *limbs, size_t count, const uint64_t *w, i
         exact_carry(limbs, count, (size_t)(first + words + 1), carry, mask);
 }
 
+/* k where n = 2^k, as it mostly is: to multiply by n is to shift then. -1 for other n. */
+static inline int exact_shift(uint64_t n)
+{
+    return (n & (n - 1)) == 0 && n != 0 ? (int)(buffon_priv_bits((double)n) >> 52) - 1023 : -1;
+}
+
 void buffon_priv_sum_add(uint64_t *sum, double m, uint64_t n, int e)
 {
     BUFFON_PRIV_VERIFY(buffon_priv_isfinite(m));
     exact_parts p = exact_split(m);
+    const int unit = p.e + e - BUFFON_PRIV_SUM_UNIT, k = exact_shift(n);
     uint64_t w[2];
+    if (k >= 0) {
+        exact_add(sum, BUFFON_STATS_SUM, &p.m, 1, unit + k, p.negative);
+        return;
+    }
     exact_multiply(w, p.m, n, 0);
-    exact_add(sum, BUFFON_STATS_SUM, w, 2, p.e + e - BUFFON_PRIV_SUM_UNIT, p.negative);
+    exact_add(sum, BUFFON_STATS_SUM, w, 2, unit, p.negative);
 }
 
 void buffon_priv_squares_add(uint64_t *squares, double a, double b, uint64_t n, int e)
 {
     BUFFON_PRIV_VERIFY(buffon_priv_isfinite(a) && buffon_priv_isfinite(b));
     exact_parts p = exact_split(a), q = exact_split(b);
+    const int unit = p.e + q.e + e - BUFFON_PRIV_SQUARES_UNIT, k = exact_shift(n);
     uint64_t ab[2], w[3];
     exact_multiply(ab, p.m, q.m, 0);
+    if (k >= 0) {
+        exact_add(squares, BUFFON_STATS_SQUARES, ab, 2, unit + k, p.negative ^ q.negative);
+        return;
+    }
     exact_multiply(w, ab[0], n, 0);
     exact_multiply(w + 1, ab[1], n, w[1]);
-    exact_add(squares, BUFFON_STATS_SQUARES, w, 3, p.e + q.e + e - BUFFON_PRIV_SQUARES_UNIT,
-              p.negative ^ q.negative);
+    exact_add(squares, BUFFON_STATS_SQUARES, w, 3, unit, p.negative ^ q.negative);
 }
 
 void buffon_priv_value_add(uint64_t *sum, uint64_t *squares, double y)

@@ -9,6 +9,8 @@
 #include "exact.h"
 #include "stats_priv.h"
 
+#define STATS_ROW 32 /* values that are held against the list at once */
+
 /* Moves the smaller ones down by one place; a list that is not full ends in zeros. */
 static inline void stats_top_insert(double *top, double size)
 {
