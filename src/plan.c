@@ -15,13 +15,25 @@ static uint64_t plan_ceil(double x)
     return whole + ((double)whole < x);
 }
 
+/* The least number of points of a replicate, at least n, that the point set allows. */
+static uint64_t plan_whole(const buffon_priv_plan *plan, uint64_t n)
+{
+    const uint64_t rounds = (n + plan->shape.round - 1) / plan->shape.round;
+    uint64_t power = 1;
+    if (!plan->points.doubling)
+        return rounds * plan->shape.round;
+    while (power < rounds)
+        power *= 2;
+    return power * plan->shape.round;
+}
+
 /* Points of each replicate of a stratum when the run has `samples`: its share, at least two if
  * there are several strata, rounded up to what the point set needs. Grows with `samples`, so that a
  * longer run contains the shorter one. */
 static uint64_t plan_cell_points(const buffon_priv_plan *plan, size_t stratum, uint64_t samples)
 {
     const buffon_priv_problem *problem = plan->problem;
-    const uint64_t replicates = plan->shape.replicates, round = plan->shape.round;
+    const uint64_t replicates = plan->shape.replicates;
     uint64_t n = samples;
     if (problem->strata > 1) {
         double all = 0;
@@ -30,8 +42,7 @@ static uint64_t plan_cell_points(const buffon_priv_plan *plan, size_t stratum, u
         n = plan_ceil(problem->stratum[stratum].share / all * (double)samples);
         n = n < 2 ? 2 : n;
     }
-    n = (n + replicates - 1) / replicates;
-    return (n + round - 1) / round * round;
+    return plan_whole(plan, (n + replicates - 1) / replicates);
 }
 
 /* What the point set needs, for densities of different numbers of uniforms the least common
@@ -255,7 +266,8 @@ void buffon_priv_plan_extend(buffon_priv_record *record, const buffon_priv_plan 
     record->shape.looks = plan->shape.looks;
     for (size_t c = 0; c < buffon_priv_shape_cells(&record->shape); c++) {
         const int tail = buffon_priv_cell_count(&record->tail, c, &record->shape) > 0;
-        const uint64_t extent = plan_extent(record, c);
+        const uint64_t done = plan_extent(record, c);
+        const uint64_t extent = plan->points.doubling ? plan_whole(plan, done) : done;
         if (tail && plan->target[c] <= record->target[c])
             continue;
         if (tail)

@@ -41,7 +41,7 @@ one_file_make()
 
 # one_file_build <name> <compiler and flags>: compiles it with no flag that matters, so the pragmas
 # of src/guard.h must do, and links tests/bits.c, which computes too and is given the flag. It takes
-# long and uses one processor, so it is made to run in the background; one_file_bits says what became
+# long and uses one processor, so it is made to run in the background; one_file_bits says what came
 # of it.
 one_file_build()
 {

@@ -195,7 +195,7 @@ static void test_points(void)
     bad_run(BUFFON_E_POINTS, &run, "257 replicates");
     points = random, points.design = (buffon_design)5;
     bad_run(BUFFON_E_POINTS, &run, "design 5");
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         points = random, points.reserved[i] = 1;
         bad_run(BUFFON_E_RESERVED, &run, "a reserved word of the points");
     }
@@ -204,6 +204,9 @@ static void test_points(void)
     points.param[0] = (UINT64_C(1) << 48) + 1;
     bad_run(BUFFON_E_POINTS, &run, "points by more than 2^48");
     points.param[0] = 3;
+    points.doubling = 1;
+    bad_run(BUFFON_E_POINTS, &run, "a power of two of points, by threes");
+    points.doubling = 0;
     points.design = BUFFON_DESIGN_STRATIFIED;
     bad_run(BUFFON_E_POINTS, &run, "pairs in threes");
     points = random, points.design = BUFFON_DESIGN_ANTITHETIC;

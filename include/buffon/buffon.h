@@ -1,7 +1,7 @@
 /* buffon: Monte Carlo integration and sampling. This header includes all the others.
  *
  *     layer 0  api  version  status  cpu
- *     layer 1  math  rng  stats  estimate  interval  integrand  points  partial
+ *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -31,6 +31,7 @@
 #include "rejection.h"
 #include "rng.h"
 #include "run.h"
+#include "sobol.h"
 #include "sphere.h"
 #include "stats.h"
 #include "status.h"

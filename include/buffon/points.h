@@ -51,7 +51,8 @@ typedef struct buffon_points {
     uint64_t param[4];    /* the constructor's */
     const void *data;     /* the constructor's */
     void *ctx;            /* a user's own */
-    uint64_t reserved[4]; /* must be zero */
+    uint64_t doubling;    /* non-zero: a replicate has a power of two of points; so is `round` */
+    uint64_t reserved[3]; /* must be zero */
 } buffon_points;
 
 /** Independent uniform points: what a run without `.points` uses.

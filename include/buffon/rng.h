@@ -37,11 +37,12 @@ BUFFON_BEGIN
 
 /** What numbers are for. No two uses share one: a pilot never repeats the main run. */
 typedef enum buffon_purpose {
-    BUFFON_PURPOSE_MAIN = 0,    /* the coordinates of an estimate */
-    BUFFON_PURPOSE_PILOT = 1,   /* of its pilot */
-    BUFFON_PURPOSE_RNG = 2,     /* the sequence of a buffon_rng */
-    BUFFON_PURPOSE_SHUFFLE = 3, /* scrambles and permutations of point sets */
-    BUFFON_PURPOSE_USER = 128   /* 128 to 255 are the caller's */
+    BUFFON_PURPOSE_MAIN = 0,     /* the coordinates of an estimate */
+    BUFFON_PURPOSE_PILOT = 1,    /* of its pilot */
+    BUFFON_PURPOSE_RNG = 2,      /* the sequence of a buffon_rng */
+    BUFFON_PURPOSE_SHUFFLE = 3,  /* permutations of point sets */
+    BUFFON_PURPOSE_SCRAMBLE = 4, /* scrambles of Sobol' points */
+    BUFFON_PURPOSE_USER = 128    /* 128 to 255 are the caller's */
 } buffon_purpose;
 
 /** Which of the independent sequences: the types hold exactly the values allowed. */

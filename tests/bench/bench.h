@@ -196,7 +196,7 @@ static void bench_want_ratios(const char *title, const bench_peer *peer, size_t 
 static void bench_group(const char *title, bench_work *ours, const bench_peer *peers, size_t n)
 {
     const size_t levels = bench_levels();
-    const bench_peer *in[BENCH_MOST];
+    const bench_peer *in[BENCH_MOST] = {NULL};
     bench_case cases[BENCH_MOST];
     size_t count = 0;
     for (; count < levels; count++)
