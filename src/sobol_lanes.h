@@ -42,8 +42,8 @@ LANES_INLINE lanes_u LANES(sobol_hash)(lanes_u x, const uint64_t key[2])
     return x ^ x >> 29;
 }
 
-/* Row b of the flips: bit t of it says whether bit b of point t is flipped. The ones of `above` are
- * the bits above b, but for the top six. Bits below 8 reach no uniform. */
+/* Row b of the flips: bit t of it says whether bit b of point t is flipped. Its node has the word's
+ * bits above b, but for the top six, and a one at b. Bits below 8 reach no uniform. */
 LANES_INLINE void LANES(sobol_flips)(lanes_u flip[], uint64_t word, const uint64_t key[2])
 {
     static const uint64_t one[8] = {1, 2, 4, 8, 16, 32, 64, 128};

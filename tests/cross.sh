@@ -38,14 +38,14 @@ machine()
 
 one_file_make "$build"
 
-# x86 runs 32-bit programs by itself, unless its system was built without them.
+# x86 runs 32-bit programs by itself. Not under qemu-i386, where a thread may never start.
 loader=/usr/i686-linux-gnu/lib/ld-linux.so.2
 if $loader --version > /dev/null 2>&1; then
-    i686="$loader --library-path /usr/i686-linux-gnu/lib"
+    machine i686 '-msse2 -mfpmath=sse' 'scalar 128 avx2 avx512' \
+        "$loader --library-path ${loader%/*}" 'levels points elementary tail'
 else
-    i686='qemu-i386 -L /usr/i686-linux-gnu'
+    tap_skip "i686" "its C library is not here, or this system does not run it"
 fi
-machine i686 '-msse2 -mfpmath=sse' 'scalar 128 avx2 avx512' "$i686" 'levels points elementary tail'
 machine aarch64 '' 'scalar 128' 'qemu-aarch64 -L /usr/aarch64-linux-gnu' 'levels points tail'
 machine s390x '' scalar 'qemu-s390x -L /usr/s390x-linux-gnu'
 

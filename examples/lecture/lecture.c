@@ -146,6 +146,7 @@ static const chapter chapters[] = {
     {"directions and light", tell_light, 1.5},
     {"inverse CDF and the disk", tell_disk, 2.5},
     {"errors and intervals", tell_errors, 4},
+    {"quasi-Monte Carlo", tell_quasi, 1.5},
     {"the picture", tell_picture, 16},
 };
 

@@ -70,6 +70,7 @@ static const char page_figures[] =
     "text-align:center;margin:0 0 2px}\n"
     ".two{grid-template-columns:repeat(auto-fit,minmax(min(100%,330px),1fr))}\n"
     ".three{grid-template-columns:repeat(auto-fit,minmax(min(100%,230px),1fr))}\n"
+    ".four{grid-template-columns:repeat(4,1fr)}\n"
     ".one{overflow-x:auto}.one svg{min-width:560px}\n"
     "svg{display:block;width:100%;height:auto;font-size:12.5px;overflow:visible}\n"
     "svg text{fill:var(--ink)}\n"
@@ -117,7 +118,8 @@ static const char page_tables[] =
     "footer{margin-top:64px;padding-top:18px;border-top:1px solid var(--rule);font-size:15px;"
     "color:var(--soft)}\n"
     "@media(max-width:640px){body{font-size:17px}nav ol{columns:1}header{padding-top:40px}"
-    "h2{font-size:26px}.formula{font-size:18px;padding-left:14px}}\n"
+    "h2{font-size:26px}.formula{font-size:18px;padding-left:14px}"
+    ".four{grid-template-columns:1fr 1fr}}\n"
     "@media print{:root{--paper:#fff}body{font-size:10.5pt}.lead{font-size:13pt}"
     "table{font-size:8pt}.all table{font-size:7.4pt}td:first-child{min-width:0}"
     "main{max-width:none;padding:0}section{margin-top:28px}"
@@ -208,6 +210,7 @@ static void page_name(text *out, const char *name)
 {
     static const char *const fine[][2] = {
         {"pi", "&pi;"}, {"gamma", "&gamma;"}, {"^2", "&sup2;"}, {"^(x+y)", "<sup>x+y</sup>"},
+        {"^(x1+...+x5)", "<sup>&Sigma;x</sup>"},
         {"'", "&rsquo;"}, {" x ", "&#8201;&times;&#8201;"}};
     text_put(out, "<td>");
     while (*name != '\0') {
@@ -305,8 +308,9 @@ void story_finish(story *s, text *document)
     text head = {0};
     story_section(s, "All the numbers", NULL);
     story_prose(s, "Every estimate on this page, as the program printed it. <i>z</i> is (value "
-                "&minus; exact) / standard error: about one in twenty should lie beyond &plusmn;2, "
-                "and about one interval in twenty should miss.");
+                "&minus; exact) / standard error: about one in twenty should lie beyond &plusmn;2 "
+                "(&plusmn;2.4 with Sobol&rsquo; points, whose error comes from 8 means), and about "
+                "one interval in twenty should miss.");
     page_rows(s, "all", 0);
     text_put(&s->page, "</section>\n");
 

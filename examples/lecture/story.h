@@ -8,6 +8,7 @@
  *     sphere.c      the uniform sphere, and how hemispheres look
  *     disk.c        inverse CDF and the disk
  *     errors.c      the error against N, and how often the interval is right
+ *     quasi.c       Sobol' points
  *     picture.c     the picture; render.c makes it
  *     figure.c globe.c png.c deflate.c text.c   drawing and writing
  */
@@ -49,7 +50,7 @@ void story_section(story *s, const char *title, const char *statement);
 void story_prose(story *s, const char *html);
 void story_formula(story *s, const char *html);
 void story_code(story *s, const char *code);
-text *story_figure(story *s, const char *class); /* class: one, two or three panels in a line */
+text *story_figure(story *s, const char *class); /* class: one to four panels in a line */
 void story_caption(story *s, const char *format, ...) TEXT_PRINTF(2, 3);
 
 #define STORY_COUNT 72
@@ -84,6 +85,7 @@ void tell_light(story *s); /* calls tell_sphere where its turn comes */
 void tell_sphere(story *s);
 void tell_disk(story *s);
 void tell_errors(story *s);
+void tell_quasi(story *s);
 void tell_picture(story *s);
 
 /* The curve of the first chapters: two humps over [0, CURVE_END], below CURVE_TOP. */

@@ -9,7 +9,9 @@
  * top 52 bits of the scrambled word. Bit b of a word is worth 2^b.
  *
  *   w        XOR of direction numbers V[b] of dimension j over the bits b of i ^ (i >> 1);
- *            V[b] = m[b+1] 2^(63-b), from which V[b] for b >= degree follow as always
+ *            V[b] = m[b+1] 2^(63-b) below the degree s of the dimension's primitive polynomial
+ *            x^s + a[1] x^(s-1) + ... + a[s-1] x + 1, and from there on
+ *            V[b] = a[1] V[b-1] ^ ... ^ a[s-1] V[b-s+1] ^ V[b-s] ^ V[b-s] 2^-s
  *   R[0..]   the words (rng.h) of the run's key with purpose BUFFON_PURPOSE_SCRAMBLE, dimension j,
  *            from index 1024 p on, p being the purpose of the run
  *
