@@ -255,16 +255,26 @@ static void show_points(void)
     } list[] = {{"random points", buffon_points_random()},
                 {"antithetic points", buffon_points_antithetic()},
                 {"jitter(7)", buffon_points_jitter(7)},
-                {"jitter(10000)", buffon_points_jitter(10000)}};
+                {"jitter(10000)", buffon_points_jitter(10000)},
+                {"Sobol' nested", buffon_points_sobol(BUFFON_SCRAMBLE_OWEN)},
+                {"Sobol' linear", buffon_points_sobol(BUFFON_SCRAMBLE_LINEAR)},
+                {"Sobol' shift", buffon_points_sobol(BUFFON_SCRAMBLE_SHIFT)},
+                {"Sobol'", buffon_points_sobol(BUFFON_SCRAMBLE_NONE)}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         for (size_t dim = 1; dim <= 3; dim++) {
-            const buffon_points_block block = {.key = {.seed = 3, .stratum = 2},
-                                               .n = POINTS,
-                                               .first = (UINT64_C(1) << 33) + 5,
-                                               .dim = dim};
-            const int failed = list[i].points.fill(u, &block, &list[i].points);
+            const buffon_points *points = &list[i].points;
+            buffon_points_block block = {.key = {.seed = 3, .stratum = 2},
+                                         .n = POINTS,
+                                         .first = (UINT64_C(1) << 33) + 5,
+                                         .dim = dim};
+            const size_t size = points->table_size ? points->table_size(dim, points) : 0;
+            block.table = malloc(size > 0 ? size : 1);
+            const int failed = block.table == NULL ||
+                               (points->prepare && points->prepare(&block, points) != 0) ||
+                               points->fill(u, &block, points) != 0;
             printf("%s: %d %016llx\n", list[i].name, failed,
                    (unsigned long long)hash_numbers(u, dim * POINTS));
+            free(block.table);
         }
     }
 }
