@@ -43,27 +43,37 @@ static buffon_level cpu_detect(void)
 
 #endif
 
-/* The level in use plus one; 0 before anybody asked. */
-static atomic_int cpu_state;
+/* The best level of the machine and the level in use, each plus one; 0 before anybody asked. */
+static atomic_int cpu_best, cpu_used;
+
+static int cpu_ask(void)
+{
+    int best = atomic_load_explicit(&cpu_best, memory_order_relaxed);
+    if (best == 0) {
+        best = (int)cpu_detect() + 1;
+        atomic_store_explicit(&cpu_best, best, memory_order_relaxed);
+    }
+    return best;
+}
 
 buffon_level buffon_cpu_limit(buffon_level most)
 {
-    const buffon_level best = cpu_detect(), level = (int)most < 0 ? BUFFON_LEVEL_SCALAR : most;
-    const buffon_level used = level < best ? level : best;
-    atomic_store_explicit(&cpu_state, (int)used + 1, memory_order_relaxed);
-    return used;
+    const int best = cpu_ask(), wanted = (int)most < 0 ? 0 : (int)most;
+    const int used = wanted < best ? wanted + 1 : best;
+    atomic_store_explicit(&cpu_used, used, memory_order_relaxed);
+    return (buffon_level)(used - 1);
 }
 
 /* The first to ask must not undo a limit that another thread sets meanwhile. */
 buffon_level buffon_cpu_level(void)
 {
-    int state = atomic_load_explicit(&cpu_state, memory_order_relaxed);
-    if (state == 0) {
-        const int best = (int)cpu_detect() + 1;
-        if (atomic_compare_exchange_strong(&cpu_state, &state, best))
-            state = best;
+    int used = atomic_load_explicit(&cpu_used, memory_order_relaxed);
+    if (used == 0) {
+        const int best = cpu_ask();
+        if (atomic_compare_exchange_strong(&cpu_used, &used, best))
+            used = best;
     }
-    return (buffon_level)(state - 1);
+    return (buffon_level)(used - 1);
 }
 
 const char *buffon_level_string(buffon_level level)

@@ -102,6 +102,8 @@ static buffon_status engine_allocate(engine *e)
     e->points = (size_t)(longest < e->plan.shape.block ? longest : e->plan.shape.block);
     e->room = blocks < ENGINE_ROUND ? (size_t)blocks : ENGINE_ROUND;
     e->wanted = e->room < e->plan.run.threads ? e->room : e->plan.run.threads;
+    if (e->wanted == 0)
+        return BUFFON_E_SAMPLES; /* there is no run without a block */
     /* The first round shows how long a block takes, if anybody is waiting to hear. */
     e->round = e->plan.run.progress != NULL ? e->wanted : e->room;
     e->task = malloc(e->room * sizeof *e->task);

@@ -11,7 +11,8 @@
  * single files; ifunc and target_clones, which clang and musl lack, are not needed either. Included
  * without KERNELS this file says which levels there are: LEVELS_HAVE_128 and LEVELS_HAVE_X86.
  */
-#ifndef LEVELS_HAVE_128
+#ifndef LEVELS_H
+#define LEVELS_H
 
 #include <math.h>
 #include <stddef.h>

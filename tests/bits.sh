@@ -33,10 +33,10 @@ for compiler in gcc clang; do
         continue
     fi
     try $compiler O3 '-O3'
-    try $compiler O0 '-O0'
     try $compiler plain '-O2' '-DBUFFON_NO_THREADS -DBUFFON_NO_VECTORS'
-    # Compiling takes minutes here, so these two are left to one compiler.
+    # Compiling takes minutes here, so these are left to one compiler.
     if [ $compiler = gcc ]; then
+        try $compiler O0 '-O0'
         try $compiler Os '-Os'
         try $compiler native '-O3 -march=native'
     fi
