@@ -8,11 +8,7 @@
 #include "exact.h"
 #include "worker.h"
 
-/* The arrays of a block lie one below the other, each a little more than its size under the one it
- * is computed from. At a whole number of pages the processor would take each load for one of what
- * was just stored; so what it could take it for is stored later. */
-#define WORKER_LINE 8 /* doubles of a cache line, where an array begins */
-#define WORKER_GAP (2 * WORKER_LINE)
+#define WORKER_LINE 8 /* doubles of a cache line; each array of a block begins with one */
 
 /* The most uniforms, coordinates and components of any stratum; of coordinates those that do not
  * lie where their uniforms were. */
@@ -43,20 +39,20 @@ buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_p
     const worker_sizes most = worker_measure(problem);
     const size_t outputs = (size_t)shape->outputs, series = buffon_priv_shape_series(shape);
     /* Sums cannot wrap: uniforms and dim are below 2^32, the rest below 2^20. */
-    const size_t rows[] = {most.uniforms,      most.dim,
+    const size_t rows[] = {most.uniforms,      most.apart,
                            problem->pdf != 0,  most.components,
                            problem->p != NULL, problem->weigh != NULL ? outputs : 0,
                            series - outputs};
     double **const arrays[] = {&worker->u, &worker->apart, &worker->pdf, &worker->f,
                                &worker->p, &worker->y,     &worker->pair};
     const size_t count = sizeof rows / sizeof *rows;
-    size_t all = 2 * WORKER_LINE;
+    size_t all = WORKER_LINE;
     memset(worker, 0, sizeof *worker);
     worker->plan = plan;
     for (size_t i = 0; i < count; i++) {
         if (rows[i] > SIZE_MAX / 16 / sizeof(double) / n - all / n - 1)
             return BUFFON_E_NOMEM;
-        all += rows[i] * n + WORKER_LINE + WORKER_GAP;
+        all += rows[i] * n + WORKER_LINE;
     }
     worker->memory = malloc((all + WORKER_LINE * most.dim) * sizeof(double));
     worker->moments = calloc(series, sizeof *worker->moments);
@@ -69,9 +65,9 @@ buffon_status buffon_priv_worker_make(buffon_priv_worker *worker, const buffon_p
     worker->row = worker->memory;
     double *at = worker->memory + WORKER_LINE * most.dim;
     at += WORKER_LINE - ((uintptr_t)at / sizeof(double)) % WORKER_LINE;
-    for (size_t i = count; i-- > 0;) {
+    for (size_t i = 0; i < count; i++) {
         *arrays[i] = at;
-        at += (rows[i] * n + WORKER_LINE - 1) / WORKER_LINE * WORKER_LINE + WORKER_GAP;
+        at += (rows[i] * n + WORKER_LINE - 1) / WORKER_LINE * WORKER_LINE;
     }
     return BUFFON_OK;
 }
