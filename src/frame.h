@@ -51,20 +51,6 @@ static inline int frame_is_upright(const double f[FRAME_SIZE])
     return f[6] == 0 && f[7] == 0 && f[8] == 1;
 }
 
-/* Turns vectors from coordinates in the frame to those of the world, in place. */
-static inline void frame_turn(double *restrict x, double *restrict y, double *restrict z, size_t n,
-                              const double f[FRAME_SIZE])
-{
-    const double f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3], f4 = f[4], f5 = f[5];
-    const double f6 = f[6], f7 = f[7], f8 = f[8];
-    for (size_t i = 0; i < n; i++) {
-        const double t = x[i], b = y[i], a = z[i];
-        x[i] = t * f0 + b * f3 + a * f6;
-        y[i] = t * f1 + b * f4 + a * f7;
-        z[i] = t * f2 + b * f5 + a * f8;
-    }
-}
-
 /* Whether a vector passes for a unit vector: directions rounded to float do. */
 static inline int frame_is_unit(double x, double y, double z)
 {

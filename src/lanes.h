@@ -8,8 +8,9 @@
  *     lanes_all(x), lanes_words(w)    the same in all lanes
  *     lanes_load(p, m), lanes_store(p, v, m)   m lanes of memory; lanes from m on are the last one
  *     lanes_bits(v), lanes_double(w)  the bits of doubles, and back
+ *     lanes_uniform(w)                the uniforms of random words: see rng.h
  *     lanes_less(a, b), lanes_less_equal(a, b), lanes_equal(a, b), lanes_odd(w)
- *     lanes_and(m, k), lanes_or(m, k), lanes_any(m), lanes_every(m)   the last two are ints
+ *     lanes_and(m, k), lanes_any(m), lanes_every(m)   the last two are ints
  *     lanes_pick(m, a, b)             m ? a : b
  *     lanes_min(a, b), lanes_max(a, b)   a < b ? a : b,  a > b ? a : b
  *     lanes_abs(v), lanes_copysign(v, s), lanes_sqrt(v)
@@ -29,12 +30,12 @@
 #define lanes_store LANES(lanes_store)
 #define lanes_bits LANES(lanes_bits)
 #define lanes_double LANES(lanes_double)
+#define lanes_uniform LANES(lanes_uniform)
 #define lanes_less LANES(lanes_less)
 #define lanes_less_equal LANES(lanes_less_equal)
 #define lanes_equal LANES(lanes_equal)
 #define lanes_odd LANES(lanes_odd)
 #define lanes_and LANES(lanes_and)
-#define lanes_or LANES(lanes_or)
 #define lanes_any LANES(lanes_any)
 #define lanes_every LANES(lanes_every)
 #define lanes_pick LANES(lanes_pick)
@@ -79,6 +80,13 @@ LANES_INLINE lanes_d lanes_double(lanes_u w)
     lanes_d v;
     memcpy(&v, &w, sizeof v);
     return v;
+}
+
+/* The fraction of a double in [1, 2) is k, and what is subtracted is 1 - 2^-53: the difference is
+ * (k + 1/2) 2^-52, a multiple of 2^-53 below 1, hence exact in any rounding mode. */
+LANES_INLINE lanes_d lanes_uniform(lanes_u word)
+{
+    return lanes_double(word >> 12 | UINT64_C(0x3ff0000000000000)) - 0x1.fffffffffffffp-1;
 }
 
 LANES_INLINE lanes_d lanes_all(double x)
@@ -205,17 +213,6 @@ LANES_INLINE lanes_m lanes_and(lanes_m m, lanes_m k)
     return (lanes_m)_mm_and_pd((__m128d)m, (__m128d)k);
 #else
     return (lanes_m)(m & k);
-#endif
-}
-
-LANES_INLINE lanes_m lanes_or(lanes_m m, lanes_m k)
-{
-#if LANES_WIDTH == 4
-    return (lanes_m)_mm256_or_pd((__m256d)m, (__m256d)k);
-#elif LANES_WIDTH == 2 && LEVELS_HAVE_X86
-    return (lanes_m)_mm_or_pd((__m128d)m, (__m128d)k);
-#else
-    return (lanes_m)(m | k);
 #endif
 }
 

@@ -1,16 +1,15 @@
 /* Private. The kernels of normal.c: included by levels.h. */
 
-/* exp(-z^2 / 2) scale for |z| < 40, from where on it is 0. z^2 is a square that is exact, of a
- * number of 26 bits, and a small rest, whose exponential is a short sum. */
+/* exp(-z^2 / 2) scale for |z| < 40, beyond which it is 0. */
 LANES_INLINE lanes_d LANES(normal_bell)(lanes_d z, double scale)
 {
-    const lanes_d size = lanes_abs(z);
-    const lanes_d a = lanes_min(lanes_all(40), size);
-    const lanes_d high = lanes_double(lanes_bits(a) & UINT64_C(0xfffffffff8000000));
-    const lanes_d rest = 0.5 * (a - high) * (a + high);
-    const lanes_d factor = 1.0 - rest * (1.0 - rest * (0.5 - rest * 0x1.5555555555555p-3));
-    const lanes_d bell = LANES(exp)(-0.5 * high * high) * factor * scale;
-    return lanes_pick(lanes_less(size, lanes_all(40)), bell, lanes_all(0));
+    const lanes_d a = lanes_min(lanes_all(40), lanes_abs(z));
+    lanes_d low, r, bell;
+    lanes_u k;
+    const lanes_d high = LANES(square)(&low, a);
+    const lanes_d rest = LANES(exp_core)(&r, &k, -0.5 * high, -0.5 * low);
+    bell = LANES(scale)((1.0 + (r + rest)) * scale, k);
+    return lanes_pick(lanes_less(a, lanes_all(40)), bell, lanes_all(0));
 }
 
 /* From standard normals in x: points and, unless it is NULL, the pdf. */

@@ -154,7 +154,7 @@ static void rng_refill(buffon_rng *rng)
     rng->at = 0;
 }
 
-/* n words of the buffer, as they are or as uniforms (see rng_put). */
+/* n words of the buffer, as they are or as uniforms. */
 static void rng_give(unsigned char *out, const uint64_t *w, size_t n, int what)
 {
     if (what == RNG_WORDS) {
@@ -162,10 +162,7 @@ static void rng_give(unsigned char *out, const uint64_t *w, size_t n, int what)
         return;
     }
     for (size_t i = 0; i < n; i++) {
-        uint64_t bits = w[i] >> 12 | UINT64_C(0x3ff0000000000000);
-        double u;
-        memcpy(&u, &bits, sizeof u);
-        u -= 0x1.fffffffffffffp-1;
+        double u = lanes_uniform_scalar(w[i]);
         memcpy(out + 8 * i, &u, sizeof u);
     }
 }

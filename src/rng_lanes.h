@@ -81,15 +81,12 @@ LANES_INLINE lanes_u LANES(rng_step)(lanes_u s[4])
     return word;
 }
 
-/* The fraction of a double in [1, 2) is k, and what is subtracted is 1 - 2^-53: the difference is
- * (k + 1/2) 2^-52, a multiple of 2^-53 below 1, hence exact in any rounding mode. */
 LANES_INLINE void LANES(rng_put)(unsigned char *out, size_t at, lanes_u word, int what)
 {
     if (what == RNG_WORDS)
         memcpy(out + at, &word, sizeof word);
     if (what == RNG_UNIFORMS) {
-        const lanes_d u =
-            lanes_double(word >> 12 | UINT64_C(0x3ff0000000000000)) - 0x1.fffffffffffffp-1;
+        const lanes_d u = lanes_uniform(word);
         memcpy(out + at, &u, sizeof u);
     }
 }

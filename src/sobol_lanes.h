@@ -8,13 +8,6 @@
 
 /* ---- words and uniforms ---- */
 
-/* As rng_put of rng_lanes.h. */
-LANES_INLINE lanes_u LANES(sobol_uniform)(lanes_u word)
-{
-    return lanes_bits(lanes_double(word >> 12 | UINT64_C(0x3ff0000000000000)) -
-                      0x1.fffffffffffffp-1);
-}
-
 LANES_INLINE void LANES(sobol_put)(unsigned char *out, const sobol_row *row, uint64_t word,
                                    int what)
 {
@@ -23,7 +16,7 @@ LANES_INLINE void LANES(sobol_put)(unsigned char *out, const sobol_row *row, uin
         memcpy(&leaf, &row->leaf[t], sizeof leaf);
         leaf ^= word;
         if (what == SOBOL_UNIFORMS)
-            leaf = LANES(sobol_uniform)(leaf);
+            leaf = lanes_bits(lanes_uniform(leaf));
         memcpy(out + 8 * t, &leaf, sizeof leaf);
     }
 }
@@ -156,7 +149,7 @@ LANES_INLINE void LANES(sobol_put_tree)(unsigned char *out, const sobol_row *row
     for (size_t t = 0; t < SOBOL_CHUNK; t += LANES_WIDTH) {
         lanes_u leaf, u;
         memcpy(&leaf, &row->leaf[t], sizeof leaf);
-        u = LANES(sobol_uniform)(leaf ^ ((flip[t / LANES_WIDTH] ^ word) & ~SOBOL_TOP));
+        u = lanes_bits(lanes_uniform(leaf ^ ((flip[t / LANES_WIDTH] ^ word) & ~SOBOL_TOP)));
         u = LANES(sobol_place)(u, turn % LANES_WIDTH);
         memcpy(out + 8 * (t ^ (turn - turn % LANES_WIDTH)), &u, sizeof u);
     }

@@ -42,11 +42,11 @@ one_file_make "$build"
 loader=/usr/i686-linux-gnu/lib/ld-linux.so.2
 if $loader --version > /dev/null 2>&1; then
     machine i686 '-msse2 -mfpmath=sse' 'scalar 128 avx2 avx512' \
-        "$loader --library-path ${loader%/*}" 'levels points elementary tail'
+        "$loader --library-path ${loader%/*}" 'cpu levels points elementary tail'
 else
     tap_skip "i686" "its C library is not here, or this system does not run it"
 fi
-machine aarch64 '' 'scalar 128' 'qemu-aarch64 -L /usr/aarch64-linux-gnu' 'levels points tail'
+machine aarch64 '' 'scalar 128' 'qemu-aarch64 -L /usr/aarch64-linux-gnu' 'cpu levels points tail'
 machine s390x '' scalar 'qemu-s390x -L /usr/s390x-linux-gnu'
 
 # Doubles with spare bits would give other results: the x87 is refused.

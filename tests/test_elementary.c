@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "elementary.h"
+#include "splitmix.h"
 #include "tap.h"
 
 #ifndef TEST_ARGUMENTS
@@ -12,28 +13,12 @@
 
 #define PI_L 3.14159265358979323846264338327950288L
 
-static uint64_t test_state;
-
-/* splitmix64. */
-static uint64_t test_word(void)
-{
-    uint64_t z = test_state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-static double test_uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
-}
-
 /* Random bits: every exponent alike. */
 static double test_any(void)
 {
     double x;
     do {
-        x = buffon_priv_from_bits(test_word());
+        x = buffon_priv_from_bits(splitmix_word());
     } while (!isfinite(x));
     return x;
 }
@@ -41,10 +26,10 @@ static double test_any(void)
 /* A few doubles away from x. */
 static double test_near(double x)
 {
-    const int steps = (int)(test_word() % 7);
+    const int steps = (int)(splitmix_word() % 7);
     int i;
     for (i = 0; i < steps; i++) {
-        x = nextafter(x, test_word() & 1 ? INFINITY : -INFINITY);
+        x = nextafter(x, splitmix_word() & 1 ? INFINITY : -INFINITY);
     }
     return x;
 }
@@ -83,8 +68,14 @@ static long double test_turnl(double x, int quarter)
     return (turns + quarter) & 2 ? -size : size;
 }
 
-static long double test_sinpil(double x) { return test_turnl(x, 0); }
-static long double test_cospil(double x) { return test_turnl(x, 1); }
+static long double test_sinpil(double x)
+{
+    return test_turnl(x, 0);
+}
+static long double test_cospil(double x)
+{
+    return test_turnl(x, 1);
+}
 
 /* One step of Newton's from the value in question. */
 static long double test_normall(double u)
@@ -110,13 +101,34 @@ static long double test_cdfl(double z)
     return 0.5L * (erfcl(x) - 2 / sqrtl(PI_L) * expl(-x * x) * step);
 }
 
-static long double test_cbrtl(double x) { return cbrtl((long double)x); }
-static long double test_acospil(double x) { return acosl((long double)x) / PI_L; }
-static long double test_erfcl(double x) { return erfcl((long double)x); }
-static long double test_logl(double x) { return logl((long double)x); }
-static long double test_log1pl(double x) { return log1pl((long double)x); }
-static long double test_expl(double x) { return expl((long double)x); }
-static long double test_expm1l(double x) { return expm1l((long double)x); }
+static long double test_cbrtl(double x)
+{
+    return cbrtl((long double)x);
+}
+static long double test_acospil(double x)
+{
+    return acosl((long double)x) / PI_L;
+}
+static long double test_erfcl(double x)
+{
+    return erfcl((long double)x);
+}
+static long double test_logl(double x)
+{
+    return logl((long double)x);
+}
+static long double test_log1pl(double x)
+{
+    return log1pl((long double)x);
+}
+static long double test_expl(double x)
+{
+    return expl((long double)x);
+}
+static long double test_expm1l(double x)
+{
+    return expm1l((long double)x);
+}
 
 /* ---- accuracy ----------------------------------------------------------------------------- */
 
@@ -132,94 +144,134 @@ typedef struct test_function {
 static double test_turns(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(0, 2);
-    case 1: return test_uniform(-0x1p20, 0x1p20);
-    case 2: return test_near((double)(int64_t)(test_word() % 41) * 0.25 - 5);
-    case 3: return test_any();
-    default: return (double)(int64_t)(test_word() >> 9) - 0x1p54;
+    case 0:
+        return splitmix_uniform(0, 2);
+    case 1:
+        return splitmix_uniform(-0x1p20, 0x1p20);
+    case 2:
+        return test_near((double)(int64_t)(splitmix_word() % 41) * 0.25 - 5);
+    case 3:
+        return test_any();
+    default:
+        return (double)(int64_t)(splitmix_word() >> 9) - 0x1p54;
     }
 }
 
 static double test_positive(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(0, 1);
-    case 1: return test_uniform(0.5, 2);
-    case 2: return fabs(test_any());
-    case 3: return test_near(1);
-    default: return buffon_priv_from_bits(test_word() >> 12);
+    case 0:
+        return splitmix_uniform(0, 1);
+    case 1:
+        return splitmix_uniform(0.5, 2);
+    case 2:
+        return fabs(test_any());
+    case 3:
+        return test_near(1);
+    default:
+        return buffon_priv_from_bits(splitmix_word() >> 12);
     }
 }
 
 static double test_above_minus_one(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(-1, 1);
-    case 1: return test_uniform(-0.3, 0.45);
-    case 2: return fabs(test_any());
-    case 3: return test_uniform(-1, 1) * test_uniform(0, 0x1p-20);
-    default: return -1 + test_uniform(0, 0x1p-30);
+    case 0:
+        return splitmix_uniform(-1, 1);
+    case 1:
+        return splitmix_uniform(-0.3, 0.45);
+    case 2:
+        return fabs(test_any());
+    case 3:
+        return splitmix_uniform(-1, 1) * splitmix_uniform(0, 0x1p-20);
+    default:
+        return -1 + splitmix_uniform(0, 0x1p-30);
     }
 }
 
 static double test_exponent(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(-1, 1);
-    case 1: return test_uniform(-745.2, 709.8);
-    case 2: return test_any();
-    case 3: return test_uniform(-746, -707);
-    default: return test_uniform(-50, 3);
+    case 0:
+        return splitmix_uniform(-1, 1);
+    case 1:
+        return splitmix_uniform(-745.2, 709.8);
+    case 2:
+        return test_any();
+    case 3:
+        return splitmix_uniform(-746, -707);
+    default:
+        return splitmix_uniform(-50, 3);
     }
 }
 
 static double test_probability(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(0, 1);
-    case 1: return test_near(test_word() & 1 ? 0.075 : 0.925);
-    case 2: return exp(test_uniform(-740, -1));
-    case 3: return 1 - exp(test_uniform(-36, -1));
-    default: return 0.5 + test_uniform(-1, 1) * exp(test_uniform(-36, -2));
+    case 0:
+        return splitmix_uniform(0, 1);
+    case 1:
+        return test_near(splitmix_word() & 1 ? 0.075 : 0.925);
+    case 2:
+        return exp(splitmix_uniform(-740, -1));
+    case 3:
+        return 1 - exp(splitmix_uniform(-36, -1));
+    default:
+        return 0.5 + splitmix_uniform(-1, 1) * exp(splitmix_uniform(-36, -2));
     }
 }
 
 static double test_root(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(-8, 8);
-    case 1: return test_any();
-    case 2: return test_uniform(-1, 1) * 0x1p-1022;
-    case 3: return test_near(ldexp(1, (int)(test_word() % 2000) - 1000));
-    default: return test_near(ldexp(sqrt(0.5), (int)(test_word() % 2000) - 1000));
+    case 0:
+        return splitmix_uniform(-8, 8);
+    case 1:
+        return test_any();
+    case 2:
+        return splitmix_uniform(-1, 1) * 0x1p-1022;
+    case 3:
+        return test_near(ldexp(1, (int)(splitmix_word() % 2000) - 1000));
+    default:
+        return test_near(ldexp(sqrt(0.5), (int)(splitmix_word() % 2000) - 1000));
     }
 }
 
 static double test_cosine(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(-1, 1);
-    case 1: return test_near(test_word() & 1 ? -0.5 : 0.5);
-    case 2: return 1 - test_uniform(0, 1) * test_uniform(0, 0x1p-20);
-    case 3: return -1 + test_uniform(0, 1) * test_uniform(0, 0x1p-20);
-    default: return test_uniform(-1, 1) * test_uniform(0, 0x1p-20);
+    case 0:
+        return splitmix_uniform(-1, 1);
+    case 1:
+        return test_near(splitmix_word() & 1 ? -0.5 : 0.5);
+    case 2:
+        return 1 - splitmix_uniform(0, 1) * splitmix_uniform(0, 0x1p-20);
+    case 3:
+        return -1 + splitmix_uniform(0, 1) * splitmix_uniform(0, 0x1p-20);
+    default:
+        return splitmix_uniform(-1, 1) * splitmix_uniform(0, 0x1p-20);
     }
 }
 
 static double test_deviate(int kind)
 {
     switch (kind) {
-    case 0: return test_uniform(-7, 28);
-    case 1: return test_uniform(-1, 1);
-    case 2: return test_uniform(-1, 1) * test_uniform(0, 0x1p-20);
-    case 3: return test_uniform(25.5, 27.3);
-    default: return test_any();
+    case 0:
+        return splitmix_uniform(-7, 28);
+    case 1:
+        return splitmix_uniform(-1, 1);
+    case 2:
+        return splitmix_uniform(-1, 1) * splitmix_uniform(0, 0x1p-20);
+    case 3:
+        return splitmix_uniform(25.5, 27.3);
+    default:
+        return test_any();
     }
 }
 
 static double test_normal(int kind)
 {
-    const double x = kind == 3 ? test_uniform(35.5, 38.6) : 1.42 * test_deviate(kind);
+    const double x = kind == 3 ? splitmix_uniform(35.5, 38.6) : 1.42 * test_deviate(kind);
     return -x;
 }
 
@@ -276,7 +328,7 @@ static void test_accuracy(const test_function *t)
 {
     double worst = 0, where = 0;
     int kind, i;
-    test_state = 1;
+    splitmix_state = 1;
     for (kind = 0; kind < t->kinds; kind++) {
         for (i = 0; i < TEST_ARGUMENTS; i++) {
             const double x = t->argument(kind);
@@ -296,7 +348,7 @@ static void test_accuracy_at_seams(void)
     const size_t n = sizeof test_seams / sizeof *test_seams;
     size_t i, j, wrong = 0;
     int k;
-    test_state = 6;
+    splitmix_state = 6;
     for (i = 0; i < n; i++) {
         for (j = 0; j < 8; j++) {
             for (k = 0; k < 300; k++) {
@@ -316,11 +368,11 @@ static void test_accuracy_angle(void)
 {
     double worst = 0, wx = 0, wy = 0;
     int i;
-    test_state = 2;
+    splitmix_state = 2;
     for (i = 0; i < 4 * TEST_ARGUMENTS; i++) {
-        const double a = i & 1 ? test_uniform(-1, 1) : test_any();
-        const double other = i & 1 ? test_uniform(-1, 1) : test_any();
-        const double b = i % 4 < 2 ? a * test_uniform(-4, 4) : other;
+        const double a = i & 1 ? splitmix_uniform(-1, 1) : test_any();
+        const double other = i & 1 ? splitmix_uniform(-1, 1) : test_any();
+        const double b = i % 4 < 2 ? a * splitmix_uniform(-4, 4) : other;
         const double y = i & 8 ? a : b, x = i & 8 ? b : a;
         const long double want = atan2l((long double)y, (long double)x) / PI_L;
         const double ulps = test_ulps(buffon_priv_atan2pi(y, x), want);
@@ -365,7 +417,7 @@ static void test_half_turns(void)
 static void test_odd(void)
 {
     int wrong = 0, i;
-    test_state = 3;
+    splitmix_state = 3;
     for (i = 0; i < TEST_ARGUMENTS; i++) {
         const double x = test_turns(i % 4);
         wrong += tap_bits(buffon_priv_sinpi(-x)) != tap_bits(-buffon_priv_sinpi(x));
@@ -374,7 +426,7 @@ static void test_odd(void)
     tap_ok(wrong == 0, "sinpi is odd and cospi is even, to the bit");
     wrong = 0;
     for (i = 0; i < TEST_ARGUMENTS; i++) {
-        const double u = ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
+        const double u = ((double)(splitmix_word() >> 12) + 0.5) * 0x1p-52;
         wrong += buffon_priv_normal_quantile(u) != -buffon_priv_normal_quantile(1 - u);
         wrong += u > 0.5 && buffon_priv_normal_quantile(u) != buffon_priv_normal_central(u - 0.5);
     }
@@ -488,8 +540,8 @@ static void test_specials(void)
 
 static void test_angles(void)
 {
-    static const double values[] = {0.0, -0.0, 1, -1, 0x1p-1074, -0x1p-1074, DBL_MAX, -DBL_MAX,
-                                    INFINITY, -INFINITY};
+    static const double values[] = {0.0,        -0.0,    1,        -1,       0x1p-1074,
+                                    -0x1p-1074, DBL_MAX, -DBL_MAX, INFINITY, -INFINITY};
     size_t i, j;
     int wrong = 0;
     for (i = 0; i < 10; i++) {
@@ -512,12 +564,12 @@ static void test_parts(void)
 {
     static const double specials[] = {0.0, -0.0, INFINITY, -INFINITY, NAN};
     int wrong[4] = {0, 0, 0, 0}, i, k, theirs;
-    test_state = 4;
+    splitmix_state = 4;
     for (i = 0; i < 400000; i++) {
-        const double x = i < 5 ? specials[i]
+        const double x = i < 5   ? specials[i]
                          : i & 1 ? test_any()
-                                 : buffon_priv_from_bits(test_word() >> 12);
-        k = (int)(test_word() % 4400) - 2200;
+                                 : buffon_priv_from_bits(splitmix_word() >> 12);
+        k = (int)(splitmix_word() % 4400) - 2200;
         wrong[0] += !test_same(buffon_priv_ldexp(x, k), ldexp(x, k));
         wrong[1] += !test_same(buffon_priv_frexp(&k, x), frexp(x, &theirs));
         wrong[1] += isfinite(x) ? k != theirs : k != 0;
@@ -557,7 +609,7 @@ static void test_frozen(const char *name, double (*f)(double), double (*argument
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
     int i;
-    test_state = 5;
+    splitmix_state = 5;
     for (i = 0; i < 20000; i++) {
         hash = test_hash(hash, f(argument(i % 4)));
     }
@@ -567,13 +619,13 @@ static void test_frozen(const char *name, double (*f)(double), double (*argument
 /* Arguments made without libm, whose bits might differ. */
 static double test_frozen_unit(int kind)
 {
-    const double u = ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
+    const double u = ((double)(splitmix_word() >> 12) + 0.5) * 0x1p-52;
     return kind == 0 ? u : kind == 1 ? u * 0.1 : kind == 2 ? 1 - u * 0x1p-20 : u * 0x1p-200;
 }
 
 static double test_frozen_signed(int kind)
 {
-    const double u = test_uniform(-1, 1);
+    const double u = splitmix_uniform(-1, 1);
     return kind == 0 ? u : kind == 1 ? u * 30 : kind == 2 ? u * 760 : u * 0x1p-12;
 }
 
@@ -602,8 +654,8 @@ static void test_bits(void)
 /* Along u the normal quantile never falls by more than rounding. */
 static void test_monotone(void)
 {
-    static const double seams[] = {0x1p-1060, 1.38879438649640206e-11 /* exp(-25) */, 0.075,
-                                   0.3, 0.925, 0.99999};
+    static const double seams[] = {
+        0x1p-1060, 1.38879438649640206e-11 /* exp(-25) */, 0.075, 0.3, 0.925, 0.99999};
     int wrong = 0, i, j;
     for (i = 0; i < 6; i++) {
         double u = seams[i], last = -INFINITY;

@@ -217,7 +217,7 @@ typedef struct normal_errors {
 } normal_errors;
 
 /* With mean 0 and sd 1 the point is z itself; else it is mean + sd z to the bit, and g is that at
- * this z. From |z| = 37 on the bell is subnormal, or soon will be. */
+ * this z. From |z| = 40 on the bell is 0. */
 static void see_normal(normal_errors *w, double mean, double sd, double u)
 {
     const buffon_density g = buffon_normal(mean, sd), standard = buffon_normal(0, 1);
@@ -227,9 +227,9 @@ static void see_normal(normal_errors *w, double mean, double sd, double u)
         w->z.share = INFINITY;
     see(&w->z, z, wide_quantile(u), 8);
     w->sums &= x == mean + sd * z;
-    if (fabs(z) < 37)
+    if (fabs(z) < 40)
         see(&w->drawn, pdf, wide_bell(z, sd), 4);
-    else if (fabs(z) >= 40)
+    else
         w->zero &= pdf == 0;
     see(&w->drawn, own, wide_bell(z, 1), 4);
 }
@@ -245,7 +245,7 @@ static void see_normal_at(normal_errors *w, double mean, double sd, double x)
         buffon_density_log_pdf(&got, &x, 1, &g) != BUFFON_OK ||
         buffon_density_invert(&u, &x, 1, &g) != BUFFON_OK)
         w->given.share = INFINITY;
-    if (fabsl(z) < 37)
+    if (fabsl(z) < 39.9L)
         see(&w->given, pdf, wide_bell(z, sd), 4 + more);
     else if (fabsl(z) > 40)
         w->zero &= pdf == 0;
@@ -275,7 +275,7 @@ static void test_normal_formulas(void)
     }
     report(&w.z, "normal: z within 8 ulp");
     tap_ok(w.sums, "normal: x is mean + sd z to the bit");
-    report(&w.drawn, "normal: g at z within 4 ulp for |z| < 37");
+    report(&w.drawn, "normal: g at z within 4 ulp for |z| < 40");
     report(&w.given, "normal: g at x within 4 + z^2 ulp of mean 0, 4 + 2 z^2 of others");
     tap_ok(w.zero, "normal: g is 0 where |z| is above 40");
     report(&w.log_given, "normal: log g at x within 6 ulp of its largest term");

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "elementary.h"
+#include "splitmix.h"
 #include "tap.h"
 
 #if defined(__SSE2__)
@@ -17,22 +18,6 @@
 #define TEST_SHORT 40  /* lengths up to there, all of them */
 #define TEST_LONG 5000 /* several tiles, and a remainder for every width */
 #define TEST_GUARD 0x1.badbadp-3
-
-static uint64_t test_state;
-
-/* splitmix64. */
-static uint64_t test_word(void)
-{
-    uint64_t z = test_state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-static double test_uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)(test_word() >> 12) + 0.5) * 0x1p-52;
-}
 
 /* ---- the functions ------------------------------------------------------------------------ */
 
@@ -198,7 +183,7 @@ static size_t test_length(size_t f, size_t n, size_t offset)
     double *tight = malloc(n * sizeof *tight + (n == 0));
     size_t i, wrong = 0;
     for (i = 0; i < n; i++) {
-        tight[i] = x[offset + i] = test_uniform(test_functions[f].lo, test_functions[f].hi);
+        tight[i] = x[offset + i] = splitmix_uniform(test_functions[f].lo, test_functions[f].hi);
     }
     y[offset + n] = TEST_GUARD;
     test_functions[f].batch(y + offset, x + offset, n);
@@ -214,7 +199,7 @@ static size_t test_length(size_t f, size_t n, size_t offset)
 static void test_lengths(const char *level)
 {
     size_t f, n, wrong = 0;
-    test_state = 1;
+    splitmix_state = 1;
     for (f = 0; f < TEST_FUNCTIONS; f++) {
         for (n = 0; n <= TEST_SHORT; n++) {
             wrong += test_length(f, n, n % 9);
@@ -235,15 +220,15 @@ static void test_long(const char *level)
 {
     static double x[TEST_LONG], y[TEST_LONG];
     size_t f, i, wrong = 0;
-    test_state = 2;
+    splitmix_state = 2;
     for (f = 0; f < TEST_FUNCTIONS; f++) {
         for (i = 0; i < TEST_LONG; i++) {
-            x[i] = test_uniform(test_functions[f].lo, test_functions[f].hi);
+            x[i] = splitmix_uniform(test_functions[f].lo, test_functions[f].hi);
         }
         test_functions[f].batch(y, x, TEST_LONG);
         wrong += test_wrong(f, y, x, TEST_LONG);
-        for (i = 0; i < TEST_LONG; i += 1 + test_word() % 20) {
-            x[i] = buffon_priv_from_bits(test_word());
+        for (i = 0; i < TEST_LONG; i += 1 + splitmix_word() % 20) {
+            x[i] = buffon_priv_from_bits(splitmix_word());
         }
         test_functions[f].batch(y, x, TEST_LONG);
         wrong += test_wrong(f, y, x, TEST_LONG);
@@ -256,12 +241,12 @@ static void test_special_lanes(const char *level)
 {
     double x[16], y[16];
     size_t f, i, k, lane, wrong = 0;
-    test_state = 3;
+    splitmix_state = 3;
     for (f = 0; f < TEST_FUNCTIONS; f++) {
         for (k = 0; k < TEST_SPECIALS; k++) {
             for (lane = 0; lane < 16; lane++) {
                 for (i = 0; i < 16; i++) {
-                    x[i] = test_uniform(test_functions[f].lo, test_functions[f].hi);
+                    x[i] = splitmix_uniform(test_functions[f].lo, test_functions[f].hi);
                 }
                 x[lane] = test_special[k];
                 x[lane ^ 1] = nextafter(test_special[k], lane & 2 ? 2000 : -2000);
@@ -277,9 +262,9 @@ static void test_two_results(const char *level)
 {
     double x[37], s[37], c[37], both[37];
     size_t i, wrong = 0;
-    test_state = 4;
+    splitmix_state = 4;
     for (i = 0; i < 37; i++) {
-        both[i] = x[i] = test_uniform(-9, 9);
+        both[i] = x[i] = splitmix_uniform(-9, 9);
     }
     buffon_math_sincospi(s, both, both, 37);
     wrong += test_wrong(0, s, x, 37) + test_wrong(1, both, x, 37);
@@ -305,11 +290,11 @@ static void test_flushed(const char *level)
     static double x[TEST_LONG], y[TEST_LONG], want[TEST_LONG];
     const unsigned control = _mm_getcsr();
     size_t f, i, wrong = 0, seen = 0;
-    test_state = 5;
+    splitmix_state = 5;
     for (f = 0; f < TEST_FUNCTIONS; f++) {
         for (i = 0; i < TEST_LONG; i++) {
-            x[i] = i & 1 ? test_uniform(test_functions[f].lo, test_functions[f].hi)
-                         : buffon_priv_from_bits(test_word());
+            x[i] = i & 1 ? splitmix_uniform(test_functions[f].lo, test_functions[f].hi)
+                         : buffon_priv_from_bits(splitmix_word());
             x[i] = test_is_normal(x[i]) ? x[i] : 0.75;
             want[i] = test_functions[f].scalar(x[i]);
         }

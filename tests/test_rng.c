@@ -6,22 +6,18 @@
 #include <buffon/rng.h>
 
 #include "rng_naive.h"
+#include "splitmix.h"
 #include "tap.h"
 
 #ifndef TESTS_DATA
 #define TESTS_DATA "tests/data"
 #endif
 
-/* The choices of these tests: splitmix64. */
-static uint64_t choice_state = 1;
-
+/* A number below `bound`, or any for 0. */
 static uint64_t choose(uint64_t bound)
 {
-    uint64_t z = choice_state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    z ^= z >> 31;
-    return bound == 0 ? z : z % bound;
+    const uint64_t word = splitmix_word();
+    return bound == 0 ? word : word % bound;
 }
 
 static buffon_rng_key choose_key(void)
@@ -235,8 +231,8 @@ static int take(buffon_rng *rng, size_t from, size_t n, int way)
 
 static void test_cuts(void)
 {
-    static const size_t size[] = {1, 2, 3, 15, 16, 17, 255, 256, 257, 511, 512, 513, 1000, 1023,
-                                  1024, 1025, 4095, 4096, 4097, REFERENCE};
+    static const size_t size[] = {1,   2,   3,    15,   16,   17,   255,  256,  257,  511,
+                                  512, 513, 1000, 1023, 1024, 1025, 4095, 4096, 4097, REFERENCE};
     int good = 1;
     for (size_t s = 0; s < sizeof size / sizeof size[0]; s++)
         for (int way = 0; way < 3; way++) {
@@ -301,8 +297,8 @@ static void test_seek(void)
         good &= buffon_rng_tell(&rng) == from;
         good &= buffon_rng_word(&rng) == naive_word(&key, 0, from);
         buffon_rng_fill_words(w, 2200, &rng);
-        good &= w[0] == naive_word(&key, 0, from + 1) &&
-                w[1500] == naive_word(&key, 0, from + 1501);
+        good &=
+            w[0] == naive_word(&key, 0, from + 1) && w[1500] == naive_word(&key, 0, from + 1501);
         good &= w[2199] == reference[2200 - before] && buffon_rng_tell(&rng) == 2201 - before;
     }
     tap_ok(good, "the sequence goes on with word 0 after word 2^64 - 1");
@@ -446,11 +442,27 @@ static int keeps_its_share(uint64_t v, uint64_t bound)
 
 static void test_below(void)
 {
-    static const uint64_t bounds[] = {
-        1, 2, 3, 5, 6, 7, 10, 255, 256, 257, 641, 1000, UINT64_C(0xffffffff), UINT64_C(0x100000000),
-        UINT64_C(0x100000001), UINT64_C(0x7fffffffffffffff), UINT64_C(0x8000000000000000),
-        UINT64_C(0x8000000000000001), UINT64_C(0xaaaaaaaaaaaaaaaa), UINT64_C(0xc000000000000000),
-        UINT64_C(0xffffffffffffffff)};
+    static const uint64_t bounds[] = {1,
+                                      2,
+                                      3,
+                                      5,
+                                      6,
+                                      7,
+                                      10,
+                                      255,
+                                      256,
+                                      257,
+                                      641,
+                                      1000,
+                                      UINT64_C(0xffffffff),
+                                      UINT64_C(0x100000000),
+                                      UINT64_C(0x100000001),
+                                      UINT64_C(0x7fffffffffffffff),
+                                      UINT64_C(0x8000000000000000),
+                                      UINT64_C(0x8000000000000001),
+                                      UINT64_C(0xaaaaaaaaaaaaaaaa),
+                                      UINT64_C(0xc000000000000000),
+                                      UINT64_C(0xffffffffffffffff)};
     int good = 1;
     for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
         uint64_t bound = bounds[i];

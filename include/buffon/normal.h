@@ -19,9 +19,9 @@ BUFFON_BEGIN
  *           g = exp(-z^2 / 2) / (sd sqrt(2 pi))
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE
- *  Exact:   z within 8 ulp, g within 4 ulp of that at z, and at a given x within 4 + 2 z^2, as far
- *           as |z| < 37, where exp leaves the normal doubles; from 40 on g is 0. Points of u and
- *           1 - u are exact mirrors about a mean of 0 (tests/test_laws.c)
+ *  Exact:   z within 8 ulp, g within 4 ulp of that at z, and at a given x within 4 + 2 z^2; from
+ *           |z| = 40 on g is 0. Points of u and 1 - u are exact mirrors about a mean of 0
+ *           (tests/test_laws.c)
  *  Source:  M. Wichura (1988), Algorithm AS 241
  *  Since:   0.1
  */
