@@ -78,11 +78,16 @@ all: $(static) $(shared) ## the static and the shared library, in build/
 
 # ---- the library --------------------------------------------------------------------------------
 
-# Changes when the compiler, a flag or the list of sources does, and everything with it.
+# Changes when the compiler or a flag does, and every object with it; when the list of sources does,
+# and the libraries.
 $(BUILD)/flags: force
 	@mkdir -p $(@D)
-	@printf '%s\n' "$$CC" "$$CPPFLAGS" "$$CFLAGS" "$$LDFLAGS" '$(flags)' '$(sources)' > $@.new
+	@printf '%s\n' "$$CC" "$$CPPFLAGS" "$$CFLAGS" "$$LDFLAGS" '$(flags)' > $@.new
 	@$(CC) --version >> $@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+$(BUILD)/sources: force
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(sources)' > $@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 # One set of objects for both libraries: position-independent code costs next to nothing.
@@ -97,14 +102,14 @@ $(BUILD)/verify/%.o: src/%.c $(BUILD)/flags
 	@echo "  CC    $< (verify)"
 	@$(compile) -DBUFFON_VERIFY -c -o $@ $<
 
-$(static): $(objects)
-$(BUILD)/verify/libbuffon.a: $(verified)
+$(static): $(objects) $(BUILD)/sources
+$(BUILD)/verify/libbuffon.a: $(verified) $(BUILD)/sources
 $(static) $(BUILD)/verify/libbuffon.a:
 	@echo "  AR    $@"
 	@rm -f $@
 	@$(AR) rcs $@ $(filter %.o,$^)
 
-$(shared): $(objects)
+$(shared): $(objects) $(BUILD)/sources
 	@echo "  LINK  $@"
 	@$(CC) $(CFLAGS) -shared -Wl,-soname,libbuffon.so.$(ABI) $(LDFLAGS) -o $@ $(objects) \
 	  $(libraries)
