@@ -3,6 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  inverse_table
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -23,6 +24,7 @@
 #include "integrand.h"
 #include "interval.h"
 #include "inverse_cdf.h"
+#include "inverse_table.h"
 #include "inversion.h"
 #include "math.h"
 #include "normal.h"
