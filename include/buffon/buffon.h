@@ -4,6 +4,7 @@
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere
  *     layer 2  inversion  exponential  normal
+ *     layer 2  simplex  parallelogram
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -28,11 +29,13 @@
 #include "inversion.h"
 #include "math.h"
 #include "normal.h"
+#include "parallelogram.h"
 #include "partial.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
 #include "run.h"
+#include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
 #include "stats.h"
