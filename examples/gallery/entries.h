@@ -54,3 +54,9 @@ ENTRY("Cosine hemisphere", "A disk projected up: as a matt surface sees its sky.
 const double lamp[] = {3, -2, 2};
 ENTRY("Cap", "A lamp that is a sphere, the sun, a cone of directions.", SPHERE,
       buffon_cap_about(0.8, lamp));
+
+ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.", SPHERE,
+      buffon_henyey_greenstein(0.7, lamp));
+
+ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
+      buffon_von_mises_fisher(10, lamp));
