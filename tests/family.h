@@ -57,6 +57,24 @@ static void family_shapes(void)
     family_plain("hemisphere, cosine, about an axis", buffon_hemisphere_cosine_about(family_axis));
 }
 
+static void family_directional(void)
+{
+    static const double up[3] = {0, 0, 1};
+    family_plain("Henyey and Greenstein", buffon_henyey_greenstein(0.7, up));
+    family_plain("Henyey and Greenstein about an axis",
+                 buffon_henyey_greenstein(-0.4, family_axis));
+    family_add("Henyey and Greenstein, forward", buffon_henyey_greenstein(1 - 0x1p-20, up))
+        ->unseen = 1;
+    family_add("Henyey and Greenstein, backward", buffon_henyey_greenstein(-0.999, family_axis))
+        ->unseen = 1;
+    family_add("Henyey and Greenstein, even", buffon_henyey_greenstein(1e-300, up));
+    family_plain("von Mises and Fisher", buffon_von_mises_fisher(5, up));
+    family_plain("von Mises and Fisher about an axis", buffon_von_mises_fisher(50, family_axis));
+    family_add("von Mises and Fisher, even", buffon_von_mises_fisher(0, family_axis));
+    family_add("von Mises and Fisher, nearly even", buffon_von_mises_fisher(1e-9, up));
+    family_add("von Mises and Fisher, narrow", buffon_von_mises_fisher(1e12, up));
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
@@ -77,6 +95,7 @@ static void family_products(void)
 static void family_make(void)
 {
     family_shapes();
+    family_directional();
     family_lines();
     family_products();
 }
