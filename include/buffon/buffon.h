@@ -2,7 +2,9 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -15,6 +17,7 @@
 #include "cap.h"
 #include "cpu.h"
 #include "density.h"
+#include "directional.h"
 #include "disk.h"
 #include "estimate.h"
 #include "exponential.h"
@@ -37,6 +40,7 @@
 #include "status.h"
 #include "stratified.h"
 #include "uniform.h"
+#include "verify_density.h"
 #include "version.h"
 
 #endif
