@@ -66,7 +66,7 @@ static void circle(wide *c, wide *s, double t)
 }
 
 typedef struct errors {
-    worst across, height, drawn, given;
+    worst across, height, drawn, given, back;
 } errors;
 
 /* A point drawn about +z against the depth w and 2 - w that it should have. Allowed: ulp of x and
@@ -74,10 +74,11 @@ typedef struct errors {
 static void see_point(errors *e, const buffon_density *g, const double u[2], wide w, wide rest,
                       wide pdf, const double allowed[4])
 {
-    double x[3], got = NAN, again = NAN;
+    double x[3], v[2] = {NAN, NAN}, got = NAN, again = NAN;
     wide c, s;
     if (buffon_density_sample(x, &got, u, 1, g) != BUFFON_OK ||
-        buffon_density_pdf(&again, x, 1, g) != BUFFON_OK)
+        buffon_density_pdf(&again, x, 1, g) != BUFFON_OK ||
+        buffon_density_invert(v, x, 1, g) != BUFFON_OK)
         e->across.share = INFINITY;
     circle(&c, &s, u[1]);
     const wide sine = sqrtl(w) * sqrtl(rest);
@@ -86,6 +87,7 @@ static void see_point(errors *e, const buffon_density *g, const double u[2], wid
     see_near(&e->height, x[2], w < 1 ? 1 - w : rest - 1, allowed[1]);
     see(&e->drawn, got, pdf, allowed[2]);
     see(&e->given, again, pdf, allowed[3]);
+    see_near(&e->back, v[0], u[0], 0x1p-50);
 }
 
 /* g of every kind: 0 and near it, and as near to +-1 as doubles are. */
@@ -126,6 +128,7 @@ static void test_scatter(void)
     report(&e.height, "Henyey and Greenstein: z within 2^-50");
     report(&e.drawn, "Henyey and Greenstein: g along with the point within 10 ulp");
     report(&e.given, "Henyey and Greenstein: g at it within 16 ulp");
+    report(&e.back, "Henyey and Greenstein: back to u1 within 2^-50");
 }
 
 /* The law that the map is to have, by another way than the map: the textbook's distribution
@@ -209,6 +212,7 @@ static void test_fisher(void)
     report(&e.height, "von Mises and Fisher: z within 2^-51");
     report(&e.drawn, "von Mises and Fisher: g along with the point within 4 ulp");
     report(&e.given, "von Mises and Fisher: g at it within 8 + 4 kappa w ulp");
+    report(&e.back, "von Mises and Fisher: back to u1 within 2^-50");
 }
 
 /* Points far out, where the density itself is below the doubles. */

@@ -18,15 +18,16 @@ BUFFON_BEGIN
  *  In:      g        the mean cosine, -1 < g < 1: forward scattering is > 0, 0 is the sphere
  *           axis[3]  finite, not zero: where the light was going
  *  Law:     with v = 1 - u1, a = 1 - g, b = 1 + g and D = a u1 + b v:
- *           w = 2 u1 a^2 (b v + u1) / D^2, 2 - w = 2 v b^2 (a u1 + v) / D^2, angle = 2 pi u2 about the axis; nothing cancels and
- *           nothing is divided by g. g = a b / (4 pi (a^2 + 2 g w)^(3/2)) by solid angle, 0 where
- *           |x|^2 is further than 2^-20 from 1
+ *           w = 2 u1 a^2 (b v + u1) / D^2, 2 - w = 2 v b^2 (a u1 + v) / D^2, angle = 2 pi u2 about
+ *           the axis; nothing cancels and nothing is divided by g. The density is
+ *           a b / (4 pi (a^2 + 2 g w)^(3/2)) by solid angle, 0 where |x|^2 is further than 2^-20
+ *           from 1
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE or BUFFON_E_NULL
  *  Exact:   about +z, for every g up to the last double below 1: x and y within 8 ulp, z within
- *           2^-50, g along with the point within 10 ulp, g at it within 16. About another axis x
- *           within 2^-50, and g at given points as well as their chord to the axis is known
- *           (tests/test_directional.c)
+ *           2^-50, the density along with the point within 10 ulp, at it within 16. About another
+ *           axis x within 2^-50, and the density at given points as well as their chord to the
+ *           axis is known (tests/test_directional.c)
  *  Source:  L. Henyey, J. Greenstein (1941), Diffuse radiation in the galaxy
  *  Since:   0.1
  */
