@@ -57,12 +57,25 @@ static void family_shapes(void)
     family_plain("hemisphere, cosine, about an axis", buffon_hemisphere_cosine_about(family_axis));
 }
 
+static void family_gamma(void)
+{
+    family_plain("gamma 2.5", buffon_gamma(2.5, 1));
+    family_plain("gamma 0.5", buffon_gamma(0.5, 3))->unseen = 1;
+    family_plain("gamma 50", buffon_gamma(50, 0.1));
+    family_add("gamma 0.05", buffon_gamma(0.05, 1e100))->unseen = 1;
+    family_add("gamma 10", buffon_gamma(10, 1e-100));
+    family_add("gamma 9.99", buffon_gamma(9.99, 1));
+    family_add("gamma 1e10", buffon_gamma(1e10, 1));
+    family_plain("chi-square 3", buffon_chi_square(3));
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
     family_add("normal, narrow", buffon_normal(1e6, 1e-3));
     family_plain("exponential", buffon_exponential(1));
     family_add("exponential, fast", buffon_exponential(1e100));
+    family_gamma();
 }
 
 static void family_products(void)

@@ -3,7 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere
- *     layer 2  inversion  exponential  normal
+ *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -20,6 +20,7 @@
 #include "disk.h"
 #include "estimate.h"
 #include "exponential.h"
+#include "gamma.h"
 #include "hemisphere.h"
 #include "importance.h"
 #include "integrand.h"
