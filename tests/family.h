@@ -73,6 +73,16 @@ static void family_directional(void)
     family_add("von Mises and Fisher, even", buffon_von_mises_fisher(0, family_axis));
     family_add("von Mises and Fisher, nearly even", buffon_von_mises_fisher(1e-9, up));
     family_add("von Mises and Fisher, narrow", buffon_von_mises_fisher(1e12, up));
+static void family_gamma(void)
+{
+    family_plain("gamma 2.5", buffon_gamma(2.5, 1));
+    family_plain("gamma 0.5", buffon_gamma(0.5, 3))->unseen = 1;
+    family_plain("gamma 50", buffon_gamma(50, 0.1));
+    family_add("gamma 0.05", buffon_gamma(0.05, 1e100))->unseen = 1;
+    family_add("gamma 10", buffon_gamma(10, 1e-100));
+    family_add("gamma 9.99", buffon_gamma(9.99, 1));
+    family_add("gamma 1e10", buffon_gamma(1e10, 1));
+    family_plain("chi-square 3", buffon_chi_square(3));
 }
 
 static void family_lines(void)
@@ -81,6 +91,7 @@ static void family_lines(void)
     family_add("normal, narrow", buffon_normal(1e6, 1e-3));
     family_plain("exponential", buffon_exponential(1));
     family_add("exponential, fast", buffon_exponential(1e100));
+    family_gamma();
 }
 
 static void family_products(void)
