@@ -3,6 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  table  alias
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -10,6 +11,7 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "alias.h"
 #include "api.h"
 #include "box.h"
 #include "cap.h"
@@ -36,6 +38,7 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "table.h"
 #include "uniform.h"
 #include "version.h"
 
