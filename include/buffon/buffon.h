@@ -7,6 +7,8 @@
  *     layer 2  density  box  disk  sphere  cap  hemisphere
  *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  verify_density
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  table  alias
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -14,6 +16,7 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "alias.h"
 #include "api.h"
 #include "box.h"
 #include "cap.h"
@@ -42,6 +45,7 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "table.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
