@@ -57,12 +57,41 @@ static void family_shapes(void)
     family_plain("hemisphere, cosine, about an axis", buffon_hemisphere_cosine_about(family_axis));
 }
 
+static void family_directional(void)
+{
+    static const double up[3] = {0, 0, 1};
+    family_plain("Henyey and Greenstein", buffon_henyey_greenstein(0.7, up));
+    family_plain("Henyey and Greenstein about an axis",
+                 buffon_henyey_greenstein(-0.4, family_axis));
+    family_add("Henyey and Greenstein, forward", buffon_henyey_greenstein(1 - 0x1p-20, up))
+        ->unseen = 1;
+    family_add("Henyey and Greenstein, backward", buffon_henyey_greenstein(-0.999, family_axis))
+        ->unseen = 1;
+    family_add("Henyey and Greenstein, even", buffon_henyey_greenstein(1e-300, up));
+    family_plain("von Mises and Fisher", buffon_von_mises_fisher(5, up));
+    family_plain("von Mises and Fisher about an axis", buffon_von_mises_fisher(50, family_axis));
+    family_add("von Mises and Fisher, even", buffon_von_mises_fisher(0, family_axis));
+    family_add("von Mises and Fisher, nearly even", buffon_von_mises_fisher(1e-9, up));
+    family_add("von Mises and Fisher, narrow", buffon_von_mises_fisher(1e12, up));
+static void family_gamma(void)
+{
+    family_plain("gamma 2.5", buffon_gamma(2.5, 1));
+    family_plain("gamma 0.5", buffon_gamma(0.5, 3))->unseen = 1;
+    family_plain("gamma 50", buffon_gamma(50, 0.1));
+    family_add("gamma 0.05", buffon_gamma(0.05, 1e100))->unseen = 1;
+    family_add("gamma 10", buffon_gamma(10, 1e-100));
+    family_add("gamma 9.99", buffon_gamma(9.99, 1));
+    family_add("gamma 1e10", buffon_gamma(1e10, 1));
+    family_plain("chi-square 3", buffon_chi_square(3));
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
     family_add("normal, narrow", buffon_normal(1e6, 1e-3));
     family_plain("exponential", buffon_exponential(1));
     family_add("exponential, fast", buffon_exponential(1e100));
+    family_gamma();
 }
 
 /* Held against a larger piece of the same line or plane. */
@@ -123,6 +152,7 @@ static void family_products(void)
 static void family_make(void)
 {
     family_shapes();
+    family_directional();
     family_lines();
     family_pieces();
     family_products();
