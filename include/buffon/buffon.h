@@ -4,7 +4,7 @@
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
  *     layer 2  inversion  exponential  normal
- *     layer 2  simplex  parallelogram
+ *     layer 2  simplex  parallelogram  spherical
  *     layer 2  density  box  disk  sphere  cap  hemisphere
  *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  verify_density
@@ -45,6 +45,7 @@
 #include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
+#include "spherical.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
