@@ -73,6 +73,22 @@ static void family_directional(void)
     family_add("von Mises and Fisher, even", buffon_von_mises_fisher(0, family_axis));
     family_add("von Mises and Fisher, nearly even", buffon_von_mises_fisher(1e-9, up));
     family_add("von Mises and Fisher, narrow", buffon_von_mises_fisher(1e12, up));
+}
+
+/* ---- flat pieces ---- */
+
+static void family_flat(void)
+{
+}
+
+/* ---- spherical polygons and rotations ---- */
+
+static void family_spherical(void)
+{
+}
+
+/* ---- gamma, beta and their kin ---- */
+
 static void family_gamma(void)
 {
     family_plain("gamma 2.5", buffon_gamma(2.5, 1));
@@ -85,13 +101,48 @@ static void family_gamma(void)
     family_plain("chi-square 3", buffon_chi_square(3));
 }
 
+/* ---- laws of whole numbers ---- */
+
+static void family_counts(void)
+{
+}
+
+/* ---- laws on the line in closed form ---- */
+
+static void family_laws(void)
+{
+}
+
+/* ---- tables ---- */
+
+static void family_tables(void)
+{
+}
+
+/* ---- tables made by numerical inversion ---- */
+
+static void family_inverse_tables(void)
+{
+}
+
+/* ---- spheres and balls of any dimension ---- */
+
+static void family_dimensions(void)
+{
+}
+
+/* ---- mixtures, truncation, affine images ---- */
+
+static void family_combined(void)
+{
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
     family_add("normal, narrow", buffon_normal(1e6, 1e-3));
     family_plain("exponential", buffon_exponential(1));
     family_add("exponential, fast", buffon_exponential(1e100));
-    family_gamma();
 }
 
 static void family_products(void)
@@ -107,8 +158,17 @@ static void family_make(void)
 {
     family_shapes();
     family_directional();
+    family_flat();
+    family_spherical();
+    family_dimensions();
     family_lines();
+    family_laws();
+    family_gamma();
+    family_counts();
+    family_tables();
+    family_inverse_tables();
     family_products();
+    family_combined();
 }
 
 #endif
