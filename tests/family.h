@@ -75,6 +75,11 @@ static void family_round(void)
     family_add("zone, near the pole", buffon_zone_angles(1e-9, 2e-9, up));
     family_add("zone, near the other pole", buffon_zone_angles(3.1415, 3.14159, up));
     family_add("all but a cap", buffon_cap_complement_angle(0.5, family_axis));
+    family_plain("cosine to the power 20", buffon_hemisphere_power(20));
+    family_plain("cosine to a power, about an axis",
+                 buffon_hemisphere_power_about(2.5, family_axis));
+    family_add("cosine to the power 0", buffon_hemisphere_power(0));
+    family_add("cosine to the power 1e15", buffon_hemisphere_power(1e15));
     family_add("all but a tiny cap", buffon_cap_complement_height(1e-18, up));
 }
 

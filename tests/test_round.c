@@ -359,6 +359,50 @@ static void test_cap_angles(void)
     report(&point, 4, "cap of an angle from 1e-9 to pi, coordinates in 2^-52");
 }
 
+/* ---- powers of the cosine ----------------------------------------------------------------- */
+
+static void test_powers(void)
+{
+    worst point = {0}, height = {0}, drawn = {0}, given = {0}, logs = {0}, back = {0};
+    buffon_rng rng = buffon_rng_make(8, 40);
+    for (int k = 0; k < 2 * DRAWS; k++) {
+        const double edge[] = {0, 1, 1e15, 0x1p-1074, 0.5, 2, 3e7};
+        const double power = k % 3 == 0 ? edge[k / 3 % 7] : any(&rng, k % 3 == 1 ? -60 : -3, 49);
+        const buffon_density g = buffon_hemisphere_power(power);
+        double u[2], x[3], pdf, again, log_pdf, v[2] = {0};
+        wide c, s;
+        grid_pair(u, &rng, k);
+        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK ||
+            buffon_density_pdf(&again, x, 1, &g) != BUFFON_OK ||
+            buffon_density_log_pdf(&log_pdf, x, 1, &g) != BUFFON_OK ||
+            buffon_density_invert(v, x, 1, &g) != BUFFON_OK)
+            point.most = INFINITY;
+        circle(&c, &s, u[1]);
+        const wide log_cosine = log1pl(-(wide)u[0]) / ((wide)power + 1);
+        const wide sine = sqrtl(-expm1l(2 * log_cosine)), scale = ((wide)power + 1) / (2 * WIDE_PI);
+        see(&point, x[0], sine * c);
+        see(&point, x[1], sine * s);
+        see(&height, x[2], expl(log_cosine));
+        see(&drawn, pdf, scale * expl(power * log_cosine));
+        /* At the point as it is: its sine, or its height where that is less. */
+        const wide r2 = (wide)x[0] * x[0] + (wide)x[1] * x[1], z = x[2];
+        const wide own =
+            r2 < 0.5L ? 0.5L * log1pl(-r2 / (r2 + z * z)) : logl(z) - 0.5L * logl(r2 + z * z);
+        const wide exact = scale * expl(power * own);
+        if (exact > DBL_MIN)
+            see_error(&given, fabsl(again - exact) / ulp(exact) / (5 - 3 * power * own));
+        see_error(&logs, fabsl(log_pdf - (logl(scale) + power * own)) / 0x1p-52L /
+                             (1 + fabsl(logl(scale)) - power * own));
+        see_error(&back, fabs(v[0] - u[0]) / 0x1p-52L);
+    }
+    report(&point, 5, "power of the cosine, x and y in ulp");
+    report(&height, 4, "power of the cosine, z in ulp");
+    report(&drawn, 4, "power of the cosine, g along with the point in ulp");
+    report(&given, 1, "power of the cosine, g at a point in 5 + 3 n |log z| ulp");
+    report(&logs, 3, "power of the cosine, log g in 2^-52 of its terms");
+    report(&back, 64, "power of the cosine, u1 of the point in 2^-52");
+}
+
 /* ---- known values ------------------------------------------------------------------------- */
 
 static void test_plane(void)
@@ -475,6 +519,46 @@ static void refuse_sphere_parts(void)
     refused_by_value(buffon_cap_complement_height(NAN, up), BUFFON_E_SHAPE, "a height of NaN");
 }
 
+/* Turned, against the same upright: the uniform and the cosine hemisphere have the same pdf. */
+static void test_lobes(void)
+{
+    const double axis[3] = {2, -1, -3};
+    const buffon_density flat = buffon_hemisphere_power(0), cosine = buffon_hemisphere_power(1);
+    const buffon_density sharp = buffon_hemisphere_power_about(1e15, axis);
+    const buffon_density lobe = buffon_hemisphere_power_about(20.5, axis);
+    const buffon_density lambert = buffon_hemisphere_cosine();
+    double error = 0, length = 0, u[2], x[3], pdf, again;
+    int there = 1;
+    buffon_rng rng = buffon_rng_make(9, 40);
+    for (int k = 0; k < 2000; k++) {
+        grid_pair(u, &rng, k);
+        there &= buffon_density_sample(x, &pdf, u, 1, &lambert) == BUFFON_OK &&
+                 buffon_density_pdf(&again, x, 1, &cosine) == BUFFON_OK;
+        error = fmax(error, fabs(again - pdf) / pdf);
+        there &= buffon_density_pdf(&again, x, 1, &flat) == BUFFON_OK && again == flat.param[12];
+        there &= buffon_density_sample(x, &pdf, u, 1, &sharp) == BUFFON_OK && pdf > 0;
+        length = fmax(length, fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1));
+        there &= buffon_density_pdf(&again, x, 1, &sharp) == BUFFON_OK && again > 0;
+        if (u[0] < 0.999)
+            error = fmax(error, 1e-8 * fabs(again / pdf - 1));
+    }
+    tap_ok(there && error < 1e-14, "lobes: exponents 0 and 1 are the uniform and the cosine one");
+    tap_note("up to %.3g", error);
+    tap_ok(length < 0x1p-48, "lobes: |x| within 2^-49 of 1");
+    tap_ok(pdf_at(&lobe, -2, 1, 3) == 0 && pdf_at(&lambert, 0, 0, 0) == 0 &&
+               pdf_at(&cosine, 0, 1, 0) == 0 && pdf_at(&flat, 0, 0, -1) == 0 &&
+               pdf_at(&flat, 0, 0, 1.1) == 0 && pdf_at(&lobe, NAN, 0, 0) == 0,
+           "lobes: g is 0 below the plane");
+    check_back(&lobe, 64, "lobe");
+    check_back(&flat, 64, "lobe of exponent 0");
+    refused_by_value(buffon_hemisphere_power(-0.5), BUFFON_E_SHAPE, "a negative exponent");
+    refused_by_value(buffon_hemisphere_power(NAN), BUFFON_E_SHAPE, "an exponent of NaN");
+    refused_by_value(buffon_hemisphere_power(1.0000000000000002e15), BUFFON_E_SHAPE, "a large one");
+    refused_by_value(buffon_hemisphere_power(INFINITY), BUFFON_E_SHAPE, "an endless one");
+    refused_by_value(buffon_hemisphere_power_about(1, NULL), BUFFON_E_NULL, "a lobe without axis");
+    refused_by_value(buffon_hemisphere_power_about(1, (double[3]){0}), BUFFON_E_SHAPE, "about 0");
+}
+
 static void refuse_plane(void)
 {
     static const double bad[] = {0, -0.0, -1, 0x1p-1074, NAN, INFINITY, -INFINITY, DBL_MAX};
@@ -518,10 +602,12 @@ int main(void)
         test_ellipse();
         test_zones();
         test_cap_angles();
+        test_powers();
     }
     test_plane();
     refuse_plane();
     test_sphere_parts();
     refuse_sphere_parts();
+    test_lobes();
     return tap_done();
 }
