@@ -59,7 +59,7 @@ static void family_shapes(void)
 
 static void family_round(void)
 {
-    static const double up[3] = {0, 0, 1};
+    static const double up[3] = {0, 0, 1}, down[3] = {0, 0, -1};
     family_plain("circle", buffon_circle(2))->unseen = 1;
     family_add("circle, tiny", buffon_circle(1e-300))->unseen = 1;
     family_plain("annulus", buffon_annulus(1, 2));
@@ -75,6 +75,12 @@ static void family_round(void)
     family_add("zone, near the pole", buffon_zone_angles(1e-9, 2e-9, up));
     family_add("zone, near the other pole", buffon_zone_angles(3.1415, 3.14159, up));
     family_add("all but a cap", buffon_cap_complement_angle(0.5, family_axis));
+    family_plain("ball", buffon_ball(2));
+    family_add("ball, tiny", buffon_ball(1e-90));
+    family_plain("shell", buffon_shell(1, 1.5));
+    family_add("shell, thin", buffon_shell(1, 1 + 1e-3))->unseen = 1;
+    family_plain("cylinder", buffon_cylinder(family_axis, up, 0.5))->unseen = 1;
+    family_add("cylinder, flat", buffon_cylinder(up, down, 30))->unseen = 1;
     family_plain("cosine to the power 20", buffon_hemisphere_power(20));
     family_plain("cosine to a power, about an axis",
                  buffon_hemisphere_power_about(2.5, family_axis));
