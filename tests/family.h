@@ -57,6 +57,38 @@ static void family_shapes(void)
     family_plain("hemisphere, cosine, about an axis", buffon_hemisphere_cosine_about(family_axis));
 }
 
+static void family_round(void)
+{
+    static const double up[3] = {0, 0, 1}, down[3] = {0, 0, -1};
+    family_plain("circle", buffon_circle(2))->unseen = 1;
+    family_add("circle, tiny", buffon_circle(1e-300))->unseen = 1;
+    family_plain("annulus", buffon_annulus(1, 2));
+    family_add("annulus, thin", buffon_annulus(1e10, 1e10 + 1e-3))->unseen = 1;
+    family_plain("sector", buffon_disk_sector(0, 1.5, 0.5, 2));
+    family_add("sector, behind", buffon_disk_sector(1, 1.25, 3, 3.5));
+    family_add("sector, sliver", buffon_disk_sector(0, 1, 1, 1 + 1e-6))->unseen = 1;
+    family_plain("ellipse", buffon_ellipse(3, 0.5));
+    family_add("ellipse, flat", buffon_ellipse(1e-3, 10));
+    family_plain("zone", buffon_zone(-0.25, 0.5, up));
+    family_plain("zone about an axis", buffon_zone_angles(1, 2, family_axis));
+    family_add("zone, thin", buffon_zone_heights(1, 1 + 1e-6, family_axis))->unseen = 1;
+    family_add("zone, near the pole", buffon_zone_angles(1e-9, 2e-9, up));
+    family_add("zone, near the other pole", buffon_zone_angles(3.1415, 3.14159, up));
+    family_add("all but a cap", buffon_cap_complement_angle(0.5, family_axis));
+    family_plain("ball", buffon_ball(2));
+    family_add("ball, tiny", buffon_ball(1e-90));
+    family_plain("shell", buffon_shell(1, 1.5));
+    family_add("shell, thin", buffon_shell(1, 1 + 1e-3))->unseen = 1;
+    family_plain("cylinder", buffon_cylinder(family_axis, up, 0.5))->unseen = 1;
+    family_add("cylinder, flat", buffon_cylinder(up, down, 30))->unseen = 1;
+    family_plain("cosine to the power 20", buffon_hemisphere_power(20));
+    family_plain("cosine to a power, about an axis",
+                 buffon_hemisphere_power_about(2.5, family_axis));
+    family_add("cosine to the power 0", buffon_hemisphere_power(0));
+    family_add("cosine to the power 1e15", buffon_hemisphere_power(1e15));
+    family_add("all but a tiny cap", buffon_cap_complement_height(1e-18, up));
+}
+
 static void family_directional(void)
 {
     static const double up[3] = {0, 0, 1};
@@ -157,6 +189,7 @@ static void family_products(void)
 static void family_make(void)
 {
     family_shapes();
+    family_round();
     family_directional();
     family_flat();
     family_spherical();

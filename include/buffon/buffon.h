@@ -5,6 +5,8 @@
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
  *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  table  alias
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
+ *     layer 2  inversion  exponential  normal
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -15,9 +17,11 @@
 
 #include "alias.h"
 #include "api.h"
+#include "ball.h"
 #include "box.h"
 #include "cap.h"
 #include "cpu.h"
+#include "cylinder.h"
 #include "density.h"
 #include "directional.h"
 #include "disk.h"
