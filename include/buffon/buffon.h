@@ -3,6 +3,9 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  simplex  parallelogram
+ *     layer 2  density  box  disk  sphere  cap  hemisphere
  *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  table  alias
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
@@ -36,11 +39,13 @@
 #include "inversion.h"
 #include "math.h"
 #include "normal.h"
+#include "parallelogram.h"
 #include "partial.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
 #include "run.h"
+#include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
 #include "stats.h"
