@@ -80,6 +80,68 @@ static void family_directional(void)
     family_add("von Mises, narrow", buffon_von_mises(1e15, 0));
 }
 
+/* ---- flat pieces ---- */
+
+static void family_flat(void)
+{
+}
+
+/* ---- spherical polygons and rotations ---- */
+
+static void family_spherical(void)
+{
+}
+
+/* ---- gamma, beta and their kin ---- */
+
+static void family_gamma(void)
+{
+    family_plain("gamma 2.5", buffon_gamma(2.5, 1));
+    family_plain("gamma 0.5", buffon_gamma(0.5, 3))->unseen = 1;
+    family_plain("gamma 50", buffon_gamma(50, 0.1));
+    family_add("gamma 0.05", buffon_gamma(0.05, 1e100))->unseen = 1;
+    family_add("gamma 10", buffon_gamma(10, 1e-100));
+    family_add("gamma 9.99", buffon_gamma(9.99, 1));
+    family_add("gamma 1e10", buffon_gamma(1e10, 1));
+    family_plain("chi-square 3", buffon_chi_square(3));
+}
+
+/* ---- laws of whole numbers ---- */
+
+static void family_counts(void)
+{
+}
+
+/* ---- laws on the line in closed form ---- */
+
+static void family_laws(void)
+{
+}
+
+/* ---- tables ---- */
+
+static void family_tables(void)
+{
+}
+
+/* ---- tables made by numerical inversion ---- */
+
+static void family_inverse_tables(void)
+{
+}
+
+/* ---- spheres and balls of any dimension ---- */
+
+static void family_dimensions(void)
+{
+}
+
+/* ---- mixtures, truncation, affine images ---- */
+
+static void family_combined(void)
+{
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
@@ -101,8 +163,17 @@ static void family_make(void)
 {
     family_shapes();
     family_directional();
+    family_flat();
+    family_spherical();
+    family_dimensions();
     family_lines();
+    family_laws();
+    family_gamma();
+    family_counts();
+    family_tables();
+    family_inverse_tables();
     family_products();
+    family_combined();
 }
 
 #endif
