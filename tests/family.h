@@ -105,6 +105,11 @@ static void family_directional(void)
     family_add("von Mises and Fisher, even", buffon_von_mises_fisher(0, family_axis));
     family_add("von Mises and Fisher, nearly even", buffon_von_mises_fisher(1e-9, up));
     family_add("von Mises and Fisher, narrow", buffon_von_mises_fisher(1e12, up));
+    family_plain("von Mises", buffon_von_mises(2, 0));
+    family_plain("von Mises, concentrated", buffon_von_mises(100, 3));
+    family_add("von Mises, even", buffon_von_mises(0, -1));
+    family_add("von Mises, nearly even", buffon_von_mises(1e-9, 0));
+    family_add("von Mises, narrow", buffon_von_mises(1e15, 0));
 }
 
 /* ---- flat pieces ---- */
