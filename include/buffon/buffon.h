@@ -4,6 +4,7 @@
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
  *     layer 2  inversion  exponential  normal
+ *     layer 2  laws
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -27,6 +28,7 @@
 #include "interval.h"
 #include "inverse_cdf.h"
 #include "inversion.h"
+#include "laws.h"
 #include "math.h"
 #include "normal.h"
 #include "partial.h"
