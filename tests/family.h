@@ -77,15 +77,22 @@ static void family_directional(void)
 
 static void family_lines(void)
 {
-    static const double zero = 0, two = 2, minus = -5, far = 1e10;
-    static buffon_density to_two, to_zero, to_far;
+    static const double zero = 0, two = 2, minus = -5, far = 1e10, less = -1;
+    static buffon_density to_two, to_zero, to_far, to_one;
     to_two = buffon_box(&zero, &two, 1);
     to_zero = buffon_box(&minus, &zero, 1);
+    to_one = buffon_box(&less, &zero, 1);
     to_far = buffon_box(&zero, &far, 1);
     family_plain("normal", buffon_normal(0, 1));
     family_add("normal, narrow", buffon_normal(1e6, 1e-3));
     family_plain("exponential", buffon_exponential(1));
     family_add("exponential, fast", buffon_exponential(1e100));
+    family_plain("exponential between bounds", buffon_exponential_truncated(1.5, -1, 2));
+    family_add("exponential between bounds, rising", buffon_exponential_truncated(-30, -1, 0))
+        ->how.over = &to_one;
+    family_add("exponential between bounds, nearly even",
+               buffon_exponential_truncated(1e-200, 0, 1e10))
+        ->how.over = &to_far;
     family_plain("linear", buffon_linear(-1, 2, 1, 3));
     family_add("linear, from 0", buffon_linear(0, 1e-100, 0, 1e300));
     family_add("linear, to 0", buffon_linear(-5, 0, 1e-300, 0))->how.over = &to_zero;

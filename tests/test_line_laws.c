@@ -417,6 +417,76 @@ static void test_weibull(void)
     ulps_report(&w.u, "weibull: u of x within 6 ulp");
 }
 
+/* ---- exponential between bounds ----------------------------------------------------------- */
+
+/* The distances from lo and from hi of the share u, for the law exp(-k t) on (0, W). */
+static wide exponential_low(wide u, wide rest, wide k, wide W)
+{
+    const wide c = k * W;
+    if (fabsl(c) < 1e-30L)
+        return u * W;
+    if (c < 0 && c < -11000) /* exp(-c) is beyond the long doubles */
+        return W - logl(u) / k;
+    if (c > 0 && rest + u * expl(-c) < 0.5L)
+        return -logl(rest + u * expl(-c)) / k;
+    return -log1pl(u * expm1l(-c)) / k;
+}
+
+static void see_exponential(errors *w, double rate, double lo, double hi, double u)
+{
+    const buffon_density g = buffon_exponential_truncated(rate, lo, hi);
+    const double at[] = {rate, lo, hi, u};
+    const wide W = (wide)hi - lo, rest = 1 - (wide)u, r = fabsl((wide)rate), c = r * W;
+    if (g.status != BUFFON_OK)
+        return;
+    const wide low = isinf(lo) ? INFINITY : exponential_low(u, rest, rate, W);
+    const wide high = isinf(hi) ? INFINITY : exponential_low(rest, u, -(wide)rate, W);
+    const answer y = draw(&g, u);
+    if (low <= high)
+        ulps_see_sum(&w->x, y.x, lo, low, 4, at);
+    else
+        ulps_see_sum(&w->x, y.x, hi, -high, 4, at);
+    const wide base = rate >= 0 ? lo : hi, away = fabsl(y.x - base);
+    const wide peak = c < 1e-30L ? 1 / W : r / -expm1l(-c), at_u = r * (rate >= 0 ? low : high);
+    const wide shares = peak * (rate >= 0 ? rest + u * expl(-c) : (wide)u + rest * expl(-c));
+    if (shares > 1e-300L && at_u < 700)
+        ulps_see(&w->drawn, y.pdf, shares, 5 + 2 * (double)fminl(at_u, c), at);
+    if (peak * expl(-r * away) > 1e-300L)
+        ulps_see(&w->given, pdf_at(&g, y.x), peak * expl(-r * away), 5 + 2 * (double)(r * away),
+                 at);
+    if (r * away < 1e300L)
+        ulps_see_terms(&w->log_given, log_pdf_at(&g, y.x), logl(peak) - r * away,
+                       fmaxl(1, fmaxl(fabsl(logl(peak)), r * away)), 4, at);
+    const wide slope = shares * ulps_of(y.x);
+    if (slope < 0.01L * u)
+        ulps_see_error(&w->u,
+                       (double)(fabsl(level_of(&g, y.x) - (wide)u) /
+                                (slope + ulps_of(u) * (1 + (rate < 0 ? at_u : 0)))),
+                       16, at);
+}
+
+static void test_exponential(void)
+{
+    errors w = {0};
+    buffon_rng rng = buffon_rng_make(8, 40);
+    for (int k = 0; k < ROUNDS; k++) {
+        const double W = ulps_scale(&rng, k, -1000, 1000), v = buffon_rng_next(&rng);
+        const double c =
+            k % 3 ? ldexp(1 + v, (int)buffon_rng_below(&rng, 12)) : ulps_scale(&rng, k, -80, 80);
+        const double rate = (k % 2 ? 1 : -1) * (k % 50 ? c / W : 0), u = ulps_uniform(&rng, k);
+        const double off = k % 5 == 1 ? W * (v - 0.5) : 0;
+        const double lo = k % 7 == 3 ? -W : off, hi = k % 7 == 3 ? 0 : lo + W;
+        see_exponential(&w, rate, lo, hi, u);
+        see_exponential(&w, fabs(rate), lo, INFINITY, u);
+        see_exponential(&w, -fabs(rate), -INFINITY, hi, u);
+    }
+    ulps_report(&w.x, "exponential between bounds: x within 4 ulp of the distance");
+    ulps_report(&w.drawn, "exponential between bounds: g at u within 5 + 2 e ulp");
+    ulps_report(&w.given, "exponential between bounds: g at x within 5 + 2 e ulp");
+    ulps_report(&w.log_given, "exponential between bounds: log g within 4 ulp of its terms");
+    ulps_report(&w.u, "exponential between bounds: u of x");
+}
+
 /* ---- refusals, special points, order ------------------------------------------------------- */
 
 static int refuses(buffon_density g, buffon_status status)
@@ -462,6 +532,15 @@ static void test_refused(void)
         }
     }
     good &= refuses(buffon_linear(0, 1, 0, 0), BUFFON_E_SHAPE);
+    for (int k = 0; k < 3; k++) {
+        good &= refuses(buffon_exponential_truncated(wrong[k], 0, 1), BUFFON_E_SHAPE);
+        good &= refuses(buffon_exponential_truncated(1, wrong[k], 1), BUFFON_E_DOMAIN);
+        good &= refuses(buffon_exponential_truncated(-1, 0, wrong[k]), BUFFON_E_DOMAIN);
+        good &= refuses(buffon_exponential_truncated(0, 0, wrong[k]), BUFFON_E_DOMAIN);
+    }
+    good &= refuses(buffon_exponential_truncated(1, 1, 1), BUFFON_E_DOMAIN);
+    good &= refuses(buffon_exponential_truncated(1, -DBL_MAX, DBL_MAX), BUFFON_E_DOMAIN);
+    good &= refuses(buffon_exponential_truncated(0x1p-1001, 0, INFINITY), BUFFON_E_SHAPE);
     good &= refuses(buffon_linear(1, 1, 1, 1), BUFFON_E_DOMAIN);
     good &= refuses(buffon_linear(2, 1, 1, 1), BUFFON_E_DOMAIN);
     good &= refuses(buffon_linear(-DBL_MAX, DBL_MAX, 1, 1), BUFFON_E_DOMAIN);
@@ -511,6 +590,10 @@ static void test_special_points(void)
                special(buffon_power(-1, 1, 4), below, 5, 2, 0.5 / log(4)) &&
                special(buffon_pareto(2, 1), below, 5, 2, 0.25),
            "power, pareto: 0 outside, known inside");
+    tap_ok(special(buffon_exponential_truncated(2, 0, INFINITY), below, 5, 0, 2) &&
+               special(buffon_exponential_truncated(0, 0, 4), below, 5, 4, 0.25) &&
+               special(buffon_exponential_truncated(-1, 0, 1), below, 5, 1, 1 / -expm1(-1)),
+           "exponential between bounds: 0 outside, known at its ends");
     tap_ok(special(buffon_weibull(2, 1), below, 5, 1, 2 * exp(-1)), "weibull: known inside");
 }
 
@@ -562,6 +645,7 @@ int main(void)
         test_scale_laws();
         test_power();
         test_weibull();
+        test_exponential();
     } else {
         tap_ok(1, "formulas # SKIP long double is no wider than double");
     }
