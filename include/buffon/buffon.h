@@ -10,6 +10,7 @@
  *     layer 2  table  alias
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
  *     layer 2  inversion  exponential  normal
+ *     layer 2  laws
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -37,6 +38,7 @@
 #include "interval.h"
 #include "inverse_cdf.h"
 #include "inversion.h"
+#include "laws.h"
 #include "math.h"
 #include "normal.h"
 #include "parallelogram.h"
