@@ -3,7 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
- *     layer 2  table  alias
+ *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -13,11 +13,13 @@
 
 #include "alias.h"
 #include "api.h"
+#include "bilinear.h"
 #include "box.h"
 #include "cap.h"
 #include "cpu.h"
 #include "density.h"
 #include "disk.h"
+#include "environment.h"
 #include "estimate.h"
 #include "exponential.h"
 #include "hemisphere.h"
@@ -29,6 +31,7 @@
 #include "math.h"
 #include "normal.h"
 #include "partial.h"
+#include "piecewise.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
