@@ -12,6 +12,8 @@
  *     layer 2  inversion  exponential  normal
  *     layer 2  laws
  *     layer 2  verify_density
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -22,6 +24,7 @@
 #include "alias.h"
 #include "api.h"
 #include "ball.h"
+#include "bilinear.h"
 #include "box.h"
 #include "cap.h"
 #include "cpu.h"
@@ -29,6 +32,7 @@
 #include "density.h"
 #include "directional.h"
 #include "disk.h"
+#include "environment.h"
 #include "estimate.h"
 #include "exponential.h"
 #include "gamma.h"
@@ -43,6 +47,7 @@
 #include "normal.h"
 #include "parallelogram.h"
 #include "partial.h"
+#include "piecewise.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
