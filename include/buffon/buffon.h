@@ -2,7 +2,10 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  inversion  exponential  normal  gamma
+ *     layer 2  table  alias
+ *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
@@ -10,14 +13,17 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "alias.h"
 #include "api.h"
 #include "box.h"
 #include "cap.h"
 #include "cpu.h"
 #include "density.h"
+#include "directional.h"
 #include "disk.h"
 #include "estimate.h"
 #include "exponential.h"
+#include "gamma.h"
 #include "hemisphere.h"
 #include "importance.h"
 #include "integrand.h"
@@ -36,7 +42,9 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "table.h"
 #include "uniform.h"
+#include "verify_density.h"
 #include "version.h"
 
 #endif
