@@ -132,6 +132,7 @@ static void family_spherical(void)
     family_add("spherical rectangle, aside", buffon_spherical_rectangle(o, e2, e1, across));
     family_add("spherical rectangle, mirrored", buffon_spherical_rectangle(o, b, e1, across));
     family_add("spherical rectangle, far", buffon_spherical_rectangle(far, a, e1, across));
+    family_plain("rotation", buffon_rotation())->unseen = 1;
 }
 
 /* ---- gamma, beta and their kin ---- */

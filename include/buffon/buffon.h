@@ -4,7 +4,7 @@
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
  *     layer 2  inversion  exponential  normal
- *     layer 2  simplex  parallelogram  spherical
+ *     layer 2  simplex  parallelogram  spherical  rotation
  *     layer 2  density  box  disk  sphere  cap  hemisphere
  *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  table  alias
@@ -51,6 +51,7 @@
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
+#include "rotation.h"
 #include "run.h"
 #include "simplex.h"
 #include "sobol.h"
