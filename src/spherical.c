@@ -418,8 +418,8 @@ void buffon_spherical_triangle_weights(double w[3], double u1, double u2, const 
  *
  * C. Urena, M. Fajardo, A. King (2013), An area-preserving parametrization for spherical
  * rectangles, without its cancellations. The observer is at the origin, the rectangle
- * [x0, x1] x [y0, y1] in the plane z > 0. With psi_i = atan(y_i / z) and phi = atan(x / z) the strip
- * from x = 0 to x has the solid angle
+ * [x0, x1] x [y0, y1] in the plane z > 0. With psi_i = atan(y_i / z) and phi = atan(x / z) the
+ * strip from x = 0 to x has the solid angle
  *
  *     theta(x) = asin(sin phi sin psi1) - asin(sin phi sin psi0),
  *
@@ -429,9 +429,9 @@ void buffon_spherical_triangle_weights(double w[3], double u1, double u2, const 
  *     x = scale tau / sqrt(Q),  Q = (delta - tau^2) (1 - sigma tau^2),
  *     scale = z sqrt((1 + delta) (1 + sigma)),
  *
- * and the other way, with rho_i^2 = y_i^2 + z^2,
+ * and the other way, with root_i = sqrt(1 + x^2 / (y_i^2 + z^2)),
  *
- *     tau = x sqrt(Q) / scale,  sqrt(Q) = 2 sqrt(delta) / (sqrt(1 + x^2/rho0^2) + the same of rho1).
+ *     tau = x sqrt(Q) / scale,  sqrt(Q) = 2 sqrt(delta) / (root0 + root1),
  *
  * theta grows from theta(x0) by u1 times the solid angle, tau from t0 by
  * du = sin(U) (1 + t0^2) / (cos(U) - t0 sin(U)), U half of that; towards t1 it falls short by dv,

@@ -1,6 +1,6 @@
 /* Private. The kernels of spherical.c, which has the derivations: included by levels.h. */
 
-/* One point of a spherical triangle, as the weights of its corners: x = a w[0] + b w[1] + c w[2]. */
+/* One point of a spherical triangle, by the weights of its corners: a w[0] + b w[1] + c w[2]. */
 LANES_INLINE void LANES(spherical_share)(lanes_d w[3], lanes_d u1, lanes_d u2, const double *param)
 {
     const double *a = param + SPHERICAL_A, *b = param + SPHERICAL_B, *c = param + SPHERICAL_C;

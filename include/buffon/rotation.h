@@ -1,7 +1,7 @@
 /* Layer 2. Random rotations of space, as unit quaternions.
  *
- * A quaternion is q = (w, x, y, z): the rotation by 2 acos(w) about the axis (x, y, z). q and -q are
- * the same rotation; the one with w > 0 stands for it here.
+ * A quaternion q = (w, x, y, z) is the rotation by 2 acos(w) about the axis (x, y, z). So is -q;
+ * the one with w > 0 stands for it here.
  */
 #ifndef BUFFON_ROTATION_H
 #define BUFFON_ROTATION_H
@@ -16,9 +16,9 @@ BUFFON_BEGIN
  *
  *  Law:     q = (b sin(pi u3), a cos(2 pi u2), a sin(2 pi u2), b cos(pi u3)) with a = sqrt(1 - u1),
  *           b = sqrt(u1). By area on the unit sphere of four dimensions g = 1 / pi^2 for unit
- *           vectors with w >= 0, 0 for others and where |q|^2 is further than 2^-20 from 1. The mean
- *           of f is the mean over all rotations by the one measure that rotations leave alone
- *           (Haar's)
+ *           vectors with w >= 0, 0 for others and where |q|^2 is further than 2^-20 from 1. The
+ *           mean of f is the mean over all rotations by the one measure that rotations leave
+ *           alone (Haar's)
  *  Draws:   3
  *  Returns: a density of 4 coordinates
  *  Exact:   q within 3 ulp each, |q| within 2^-51 of 1 (tests/test_rotation.c)
