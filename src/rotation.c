@@ -39,7 +39,8 @@ static int rotation_pdf(double *pdf, const double *q, size_t n, const buffon_den
     for (size_t i = 0; i < n; i++) {
         const double w = q[i], x = q[n + i], y = q[2 * n + i], z = q[3 * n + i];
         const double square = w * w + x * x + y * y + z * z;
-        pdf[i] = (w >= 0) & (buffon_priv_abs(square - 1) <= 0x1p-20) ? ROTATION_DENSITY : 0;
+        const int in = (w >= 0) & (buffon_priv_abs(square - 1) <= 0x1p-20);
+        pdf[i] = in ? ROTATION_DENSITY : 0;
     }
     return 0;
 }

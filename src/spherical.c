@@ -189,31 +189,33 @@ static void spherical_cross(double out[3], const double a[3], const double b[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* A normal is a x (b - a): of a short side it keeps its direction. Directions are rounded by 2^-53,
- * which counts for more where a side is nearly half a circle. */
-static void spherical_walls_make(spherical_walls *w, double (*corner)[3], size_t count)
+/* From corners, of any length, and the sides from each to the next. A normal is corner x side: that
+ * of a short side keeps its direction. Directions are rounded by 2^-53, which counts for more where
+ * a side is nearly half a circle. */
+static void spherical_walls_make(spherical_walls *w, double (*corner)[3], double (*side)[3],
+                                 size_t count)
 {
     int narrow = 1;
+    memset(w, 0, sizeof *w);
     w->count = count;
+    for (size_t k = 0; k < count; k++)
+        frame_unit(w->corner[k], corner[k]);
     for (size_t k = 0; k < count; k++) {
-        const double *a = corner[k], *b = corner[(k + 1) % count], *c = corner[(k + 2) % count];
-        double side[3], sum[3], rest[3], v[3] = {0, 0, 0};
-        for (size_t j = 0; j < 3; j++) {
-            side[j] = b[j] - a[j];
-            sum[j] = b[j] + a[j];
-            rest[j] = c[j] - a[j];
-            w->corner[k][j] = a[j];
-        }
-        spherical_cross(v, a, side);
+        const double *a = w->corner[k], *b = w->corner[(k + 1) % count];
+        double v[3], sum[3];
+        spherical_cross(v, corner[k], side[k]);
         frame_unit(w->normal[k], v);
-        const double sign = spherical_dot(rest, v) < 0 ? -1 : 1;
-        for (size_t j = 0; j < 3; j++)
+        const double sign = spherical_dot(side[(k + 1) % count], v) < 0 ? -1 : 1;
+        for (size_t j = 0; j < 3; j++) {
             w->normal[k][j] *= sign;
+            w->middle[j] += a[j];
+            sum[j] = b[j] + a[j];
+        }
         w->slack[k] = 0x1p-49 * (1 + 1 / sqrt(spherical_dot(sum, sum)));
-        narrow &= spherical_dot(a, b) > 0 && spherical_dot(a, c) > 0;
+        narrow &= spherical_dot(a, b) > 0 && spherical_dot(a, w->corner[(k + 2) % count]) > 0;
     }
     for (size_t j = 0; j < 3; j++)
-        w->middle[j] = narrow ? corner[0][j] + corner[1][j] + corner[2][j] : 0;
+        w->middle[j] = narrow ? w->middle[j] : 0;
 }
 
 static int spherical_holds(const spherical_walls *w, const double x[3])
@@ -233,10 +235,10 @@ static double spherical_density(const buffon_density *g)
 }
 
 static void spherical_judge(double *pdf, const double *x, size_t n, const buffon_density *g,
-                            double (*corner)[3], size_t count)
+                            double (*corner)[3], double (*side)[3], size_t count)
 {
     spherical_walls w;
-    spherical_walls_make(&w, corner, count);
+    spherical_walls_make(&w, corner, side, count);
     for (size_t i = 0; i < n; i++) {
         const double point[3] = {x[i], x[n + i], x[2 * n + i]};
         pdf[i] = spherical_holds(&w, point) ? spherical_density(g) : 0;
@@ -275,10 +277,12 @@ static int spherical_triangle_draw(double *x, double *pdf, const double *u, size
 
 static int spherical_triangle_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    double corner[3][3];
-    for (size_t k = 0; k < 9; k++)
+    double corner[3][3], side[3][3];
+    for (size_t k = 0; k < 9; k++) {
         corner[k / 3][k % 3] = g->param[k];
-    spherical_judge(pdf, x, n, g, corner, 3);
+        side[k / 3][k % 3] = g->param[(k + 3) % 9] - g->param[k];
+    }
+    spherical_judge(pdf, x, n, g, corner, side, 3);
     return 0;
 }
 
@@ -511,16 +515,20 @@ static int spherical_rectangle_draw(double *x, double *pdf, const double *u, siz
 
 static int spherical_rectangle_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    const double *p = g->param;
-    double corner[4][3];
-    for (size_t k = 0; k < 4; k++) {
-        const double s = k == 1 || k == 2, t = k >= 2;
-        double v[3];
-        for (size_t j = 0; j < 3; j++)
-            v[j] = p[SPHERICAL_A + j] + s * p[SPHERICAL_B + j] + t * p[SPHERICAL_C + j];
-        frame_unit(corner[k], v);
+    const double *corner = g->param + SPHERICAL_A, *e1 = g->param + SPHERICAL_B;
+    const double *e2 = g->param + SPHERICAL_C;
+    double at[4][3], side[4][3];
+    for (size_t j = 0; j < 3; j++) {
+        at[0][j] = corner[j];
+        at[1][j] = corner[j] + e1[j];
+        at[2][j] = at[1][j] + e2[j];
+        at[3][j] = corner[j] + e2[j];
+        side[0][j] = e1[j];
+        side[1][j] = e2[j];
+        side[2][j] = -e1[j];
+        side[3][j] = -e2[j];
     }
-    spherical_judge(pdf, x, n, g, corner, 4);
+    spherical_judge(pdf, x, n, g, at, side, 4);
     return 0;
 }
 
