@@ -91,7 +91,7 @@ static int simplex_standard_pdf(double *pdf, const double *x, size_t n, const bu
             in &= x[j * n + i] >= 0;
             sum += x[j * n + i];
         }
-        pdf[i] = in & (sum <= most) ? g->param[0] : 0;
+        pdf[i] = (in & (sum <= most)) != 0 ? g->param[0] : 0;
     }
     return 0;
 }
