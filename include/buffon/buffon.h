@@ -3,6 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
+ *     layer 2  cap_cosine
  *     layer 2  inversion  exponential  normal
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
@@ -16,6 +17,7 @@
 #include "ball.h"
 #include "box.h"
 #include "cap.h"
+#include "cap_cosine.h"
 #include "cpu.h"
 #include "cylinder.h"
 #include "density.h"
