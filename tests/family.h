@@ -89,6 +89,24 @@ static void family_round(void)
     family_add("all but a tiny cap", buffon_cap_complement_height(1e-18, up));
 }
 
+/* Caps over, across and under the horizon of a surface that looks up. */
+static void family_cap_cosine(void)
+{
+    static const double up[3] = {0, 0, 1}, high[3] = {1, 1, 2}, low[3] = {2, 1, 0.25};
+    static const double below[3] = {3, 1, -0.5}, under[3] = {1, 0, -20}, grazing[3] = {1, 0, -0.54};
+    family_plain("cosine cap", buffon_cap_cosine(0.5, high, up));
+    family_add("cosine cap across the horizon", buffon_cap_cosine(0.5, low, up))->how.samples =
+        1 << 13;
+    family_add("cosine cap, small", buffon_cap_cosine(1e-5, high, family_axis));
+    family_add("cosine cap, sky", buffon_cap_cosine(0x1.921fb54442d18p+0, up, up));
+    family_add("cosine cap, to the horizon", buffon_cap_cosine(0.5, high, family_axis));
+    family_add("cosine cap, half", buffon_cap_cosine(0.25, low, (double[3]){-1, 2, 0}));
+    family_add("cosine cap, wide", buffon_cap_cosine(1.5, high, family_axis));
+    family_add("cosine cap, mostly below", buffon_cap_cosine(0.3, below, up));
+    family_add("cosine cap, looking down", buffon_cap_cosine(1.55, under, up))->unseen = 1;
+    family_add("cosine cap, grazing", buffon_cap_cosine(0.5, grazing, up));
+}
+
 static void family_directional(void)
 {
     static const double up[3] = {0, 0, 1};
@@ -274,6 +292,7 @@ static void family_make(void)
 {
     family_shapes();
     family_round();
+    family_cap_cosine();
     family_directional();
     family_flat();
     family_spherical();

@@ -3,7 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density
- *     layer 2  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  simplex  parallelogram
  *     layer 2  inversion  exponential  normal  laws  gamma
  *     layer 2  table  alias  piecewise  bilinear  environment
@@ -21,6 +21,7 @@
 #include "bilinear.h"
 #include "box.h"
 #include "cap.h"
+#include "cap_cosine.h"
 #include "cpu.h"
 #include "cylinder.h"
 #include "density.h"
