@@ -140,6 +140,17 @@ static void family_flat(void)
 
 static void family_spherical(void)
 {
+    static const double o[3] = {0.5, -1, 2}, a[3] = {1, 2, -0.5}, b[3] = {-2, 0.25, 1};
+    static const double c[3] = {0.1, 0.2, 3}, e1[3] = {2, 0, 1}, e2[3] = {-0.5, 3, 1};
+    static const double across[3] = {1, -3, -2}, far[3] = {40, -30, 20}, above[3] = {0.6, 0.5, 0};
+    family_plain("spherical triangle", buffon_spherical_triangle(o, a, b, c));
+    family_add("spherical triangle, large", buffon_spherical_triangle(above, a, b, c));
+    family_add("spherical triangle, 30 sizes away", buffon_spherical_triangle(far, a, b, c));
+    family_plain("spherical rectangle", buffon_spherical_rectangle(o, a, e1, across));
+    family_add("spherical rectangle, aside", buffon_spherical_rectangle(o, e2, e1, across));
+    family_add("spherical rectangle, mirrored", buffon_spherical_rectangle(o, b, e1, across));
+    family_add("spherical rectangle, far", buffon_spherical_rectangle(far, a, e1, across));
+    family_plain("rotation", buffon_rotation())->unseen = 1;
 }
 
 /* ---- gamma, beta and their kin ---- */

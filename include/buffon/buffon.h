@@ -4,7 +4,7 @@
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
- *     layer 2  ball  cylinder  simplex  parallelogram
+ *     layer 2  ball  cylinder  simplex  parallelogram  spherical  rotation
  *     layer 2  inversion  exponential  normal  laws  gamma
  *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 2  verify_density
@@ -46,10 +46,12 @@
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
+#include "rotation.h"
 #include "run.h"
 #include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
+#include "spherical.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
