@@ -63,3 +63,12 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
+
+ENTRY("Sphere of four dimensions", "Its first two coordinates fill a disk evenly.",
+      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_sphere_n(4));
+
+/* ---- shapes in space ---- */
+GROUP("Shapes in space", "Seen from afar; what is further off is fainter.");
+
+ENTRY("Ball", "A ball of any dimension is a sphere without two of its coordinates.",
+      SPACE(0, 0, 0, 1), buffon_ball_n(3));

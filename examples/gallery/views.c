@@ -168,8 +168,14 @@ static void camera_point(double v[3], const double *x, size_t i, size_t n, const
         v[k] = k < g->dim ? x[k * n + i] : 0;
 }
 
-/* The image of one line of the square: uniform `across` runs, the other stays. It is lifted where
- * the map jumps, and drawn fainter behind. */
+/* Between the ends of the unit interval, which laws without bounds would take to infinity. */
+static double view_within(double u)
+{
+    return fmin(fmax(u, 1e-4), 1 - 1e-4);
+}
+
+/* The image of one line of the square: uniform `across` runs, slowly near its ends, the other stays.
+ * It is lifted where the map jumps, and drawn fainter behind. */
 static void view_net_line(text *out, const camera *c, const buffon_density *g, int across,
                           double fixed)
 {
@@ -178,7 +184,7 @@ static void view_net_line(text *out, const camera *c, const buffon_density *g, i
     double before[2] = {0, 0};
     int side = -1, drawn_x = 0, drawn_y = 0;
     for (int i = 0; i <= STEPS; i++) {
-        u[across * (STEPS + 1) + i] = fmin(fmax((double)i / STEPS, 1e-9), 1 - 1e-9);
+        u[across * (STEPS + 1) + i] = view_within(pow(sin(1.5707963 * i / STEPS), 2));
         u[!across * (STEPS + 1) + i] = fixed;
     }
     gallery_check(buffon_density_sample(x, NULL, u, STEPS + 1, g), "a net");
@@ -210,7 +216,7 @@ static void view_net(text *out, const camera *c, const buffon_density *g)
         return;
     text_put(out, "<g transform=\"scale(.1)\">");
     for (int k = 0; k <= VIEW_CELLS; k++) {
-        double fixed = fmin(fmax((double)k / VIEW_CELLS, 1e-9), 1 - 1e-9);
+        double fixed = view_within((double)k / VIEW_CELLS);
         view_net_line(out, c, g, 0, fixed);
         view_net_line(out, c, g, 1, fixed);
     }

@@ -2,7 +2,7 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  sphere_n
  *     layer 2  inversion  exponential  normal  gamma
  *     layer 2  table  alias
  *     layer 2  verify_density
@@ -39,6 +39,7 @@
 #include "run.h"
 #include "sobol.h"
 #include "sphere.h"
+#include "sphere_n.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
