@@ -174,8 +174,8 @@ static double view_within(double u)
     return fmin(fmax(u, 1e-4), 1 - 1e-4);
 }
 
-/* The image of one line of the square: uniform `across` runs, slowly near its ends, the other stays.
- * It is lifted where the map jumps, and drawn fainter behind. */
+/* The image of one line of the square: uniform `across` runs, slowly near its ends, and the other
+ * stays. It is lifted where the map jumps, and drawn fainter behind. */
 static void view_net_line(text *out, const camera *c, const buffon_density *g, int across,
                           double fixed)
 {
