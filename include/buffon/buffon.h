@@ -14,7 +14,12 @@
  *     layer 2  laws
  *     layer 2  verify_density
  *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  density
+ *     layer 2  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  ball  cylinder  simplex  parallelogram
+ *     layer 2  inversion  exponential  normal  laws  gamma
  *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.
