@@ -203,6 +203,20 @@ static void family_combined(void)
 {
 }
 
+static void family_n_spheres(void)
+{
+    family_plain("sphere of 2 dimensions", buffon_sphere_n(2))->unseen = 1;
+    family_plain("sphere of 3 dimensions", buffon_sphere_n(3));
+    family_plain("sphere of 4 dimensions", buffon_sphere_n(4))->unseen = 1;
+    family_plain("sphere of 5 dimensions", buffon_sphere_n(5))->unseen = 1;
+    family_plain("sphere of 20 dimensions", buffon_sphere_n(20))->unseen = 1;
+    family_plain("ball of 1 dimension", buffon_ball_n(1));
+    family_plain("ball of 2 dimensions", buffon_ball_n(2));
+    family_plain("ball of 3 dimensions", buffon_ball_n(3));
+    family_plain("ball of 8 dimensions", buffon_ball_n(8))->unseen = 1;
+    family_add("ball of 99 dimensions", buffon_ball_n(99))->unseen = 1;
+}
+
 static void family_lines(void)
 {
     static const double zero = 0, two = 2, minus = -5, far = 1e10, less = -1;
@@ -305,6 +319,7 @@ static void family_make(void)
     family_round();
     family_cap_cosine();
     family_directional();
+    family_n_spheres();
     family_flat();
     family_spherical();
     family_dimensions();

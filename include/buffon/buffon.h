@@ -2,6 +2,18 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  sphere_n
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  simplex  parallelogram
+ *     layer 2  density  box  disk  sphere  cap  hemisphere
+ *     layer 2  inversion  exponential  normal  gamma
+ *     layer 2  table  alias
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  laws
+ *     layer 2  verify_density
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  simplex  parallelogram  spherical  rotation
@@ -52,6 +64,7 @@
 #include "sobol.h"
 #include "sphere.h"
 #include "spherical.h"
+#include "sphere_n.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
