@@ -235,6 +235,13 @@ static void family_lines(void)
     family_add("exponential between bounds, nearly even",
                buffon_exponential_truncated(1e-200, 0, 1e10))
         ->how.over = &to_far;
+    family_plain("normal between bounds", buffon_normal_truncated(0, 1, -1, 2));
+    family_plain("normal beyond 3", buffon_normal_truncated(0, 1, 3, INFINITY));
+    family_plain("normal, its far tail", buffon_normal_truncated(-1e5, 1, 0, INFINITY));
+    family_add("normal, a sliver", buffon_normal_truncated(-20, 1, 0, 1e-10));
+    family_add("normal below the mean", buffon_normal_truncated(1e3, 1, -INFINITY, 0));
+    family_plain("lognormal", buffon_lognormal(0.5, 0.75));
+    family_add("lognormal, heavy", buffon_lognormal(-20, 8))->unseen = 1;
     family_plain("linear", buffon_linear(-1, 2, 1, 3));
     family_add("linear, from 0", buffon_linear(0, 1e-100, 0, 1e300));
     family_add("linear, to 0", buffon_linear(-5, 0, 1e-300, 0))->how.over = &to_zero;
