@@ -69,6 +69,22 @@ static void family_gamma(void)
     family_plain("chi-square 3", buffon_chi_square(3));
 }
 
+static void family_beta(void)
+{
+    family_plain("beta 2 3", buffon_beta(2, 3));
+    family_plain("beta 0.5 0.5", buffon_beta(0.5, 0.5))->unseen = 1;
+    family_plain("beta 50 20", buffon_beta(50, 20));
+    family_add("beta 0.1 3", buffon_beta(0.1, 3))->unseen = 1;
+    family_add("beta 10 10", buffon_beta(10, 10));
+    family_add("beta 5 1e6", buffon_beta(5, 1e6));
+    family_add("beta 1e8 1e10", buffon_beta(1e8, 1e10));
+    family_plain("t 3", buffon_student_t(3));
+    family_plain("t 30", buffon_student_t(30));
+    family_add("t 1", buffon_student_t(1));
+    family_add("t 0.5", buffon_student_t(0.5))->unseen = 1;
+    family_add("t 1e10", buffon_student_t(1e10));
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
@@ -76,6 +92,7 @@ static void family_lines(void)
     family_plain("exponential", buffon_exponential(1));
     family_add("exponential, fast", buffon_exponential(1e100));
     family_gamma();
+    family_beta();
 }
 
 static void family_products(void)

@@ -3,7 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere
- *     layer 2  inversion  exponential  normal  gamma
+ *     layer 2  inversion  exponential  normal  gamma  beta  student
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -13,6 +13,7 @@
 #define BUFFON_BUFFON_H
 
 #include "api.h"
+#include "beta.h"
 #include "box.h"
 #include "cap.h"
 #include "cpu.h"
@@ -39,6 +40,7 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "student.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
