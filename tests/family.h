@@ -215,6 +215,20 @@ static void family_n_spheres(void)
     family_plain("ball of 3 dimensions", buffon_ball_n(3));
     family_plain("ball of 8 dimensions", buffon_ball_n(8))->unseen = 1;
     family_add("ball of 99 dimensions", buffon_ball_n(99))->unseen = 1;
+static void family_beta(void)
+{
+    family_plain("beta 2 3", buffon_beta(2, 3));
+    family_plain("beta 0.5 0.5", buffon_beta(0.5, 0.5))->unseen = 1;
+    family_plain("beta 50 20", buffon_beta(50, 20));
+    family_add("beta 0.1 3", buffon_beta(0.1, 3))->unseen = 1;
+    family_add("beta 10 10", buffon_beta(10, 10));
+    family_add("beta 5 1e6", buffon_beta(5, 1e6));
+    family_add("beta 1e8 1e10", buffon_beta(1e8, 1e10));
+    family_plain("t 3", buffon_student_t(3));
+    family_plain("t 30", buffon_student_t(30));
+    family_add("t 1", buffon_student_t(1));
+    family_add("t 0.5", buffon_student_t(0.5))->unseen = 1;
+    family_add("t 1e10", buffon_student_t(1e10));
 }
 
 static void family_lines(void)
@@ -309,6 +323,8 @@ static void family_pieces(void)
     family_within(family_plain("simplex 3", buffon_simplex(3)), &cube[3]);
     family_within(family_plain("simplex 5", buffon_simplex(5)), &cube[5]);
     family_unseen("simplex 16", buffon_simplex(16));
+    family_gamma();
+    family_beta();
 }
 
 static void family_products(void)

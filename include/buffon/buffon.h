@@ -19,6 +19,7 @@
  *     layer 2  ball  cylinder  simplex  parallelogram  spherical  rotation
  *     layer 2  inversion  exponential  normal  laws  gamma
  *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  inversion  exponential  normal  gamma  beta  student
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -31,6 +32,7 @@
 #include "api.h"
 #include "ball.h"
 #include "bilinear.h"
+#include "beta.h"
 #include "box.h"
 #include "cap.h"
 #include "cap_cosine.h"
@@ -69,6 +71,7 @@
 #include "status.h"
 #include "stratified.h"
 #include "table.h"
+#include "student.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
