@@ -45,7 +45,7 @@ BUFFON_API size_t buffon_piecewise_linear_size(size_t count);
 
 /** A density of straight lines between points.
  *
- *  Out:     memory  as buffon_piecewise_constant, with buffon_piecewise_linear_size(count) bytes
+ *  Out:     memory  as buffon_piecewise_constant; buffon_piecewise_linear_size(count) bytes
  *  In:      knot[count]    strictly increasing, from first to last 2^-900 to 2^900; NULL: from 0
  *                          to 1 in equal steps, knot[k] = k / (count - 1); count >= 2
  *           height[count]  finite, >= 0, not all 0
