@@ -2,6 +2,16 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  simplex  parallelogram
+ *     layer 2  density  box  disk  sphere  cap  hemisphere
+ *     layer 2  inversion  exponential  normal  gamma
+ *     layer 2  table  alias
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  laws
+ *     layer 2  verify_density
  *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
  *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
@@ -13,29 +23,36 @@
 
 #include "alias.h"
 #include "api.h"
+#include "ball.h"
 #include "bilinear.h"
 #include "box.h"
 #include "cap.h"
 #include "cpu.h"
+#include "cylinder.h"
 #include "density.h"
+#include "directional.h"
 #include "disk.h"
 #include "environment.h"
 #include "estimate.h"
 #include "exponential.h"
+#include "gamma.h"
 #include "hemisphere.h"
 #include "importance.h"
 #include "integrand.h"
 #include "interval.h"
 #include "inverse_cdf.h"
 #include "inversion.h"
+#include "laws.h"
 #include "math.h"
 #include "normal.h"
+#include "parallelogram.h"
 #include "partial.h"
 #include "piecewise.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
 #include "run.h"
+#include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
 #include "stats.h"
@@ -43,6 +60,7 @@
 #include "stratified.h"
 #include "table.h"
 #include "uniform.h"
+#include "verify_density.h"
 #include "version.h"
 
 #endif
