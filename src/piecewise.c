@@ -241,7 +241,7 @@ static buffon_status piecewise_fill(piecewise_line *line, size_t values, int ran
     if (status != BUFFON_OK)
         return status;
     for (size_t k = 0; k < values; k++) {
-        line->g[k] = buffon_priv_ldexp(line->g[k] / sum.hi, -sum.exponent - range);
+        line->g[k] = buffon_priv_ldexp(line->g[k] / sum.all, -sum.exponent - range);
         if (!(line->g[k] <= 0x1p1022))
             return BUFFON_E_TABLE;
     }
