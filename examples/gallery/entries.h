@@ -30,6 +30,17 @@ ENTRY("Inverse of a table", "A distribution function known at a few points, stra
 ENTRY("von Mises", "The normal law of angles: kappa is how much they agree.", LINE(-3.3, 3.3),
       buffon_von_mises(2, 0));
 
+static uint64_t room[5][512];
+const double heights[] = {0.2, 0.9, 0.5, 0, 0.7, 0.3};
+ENTRY("Steps", "A histogram; what has height 0 is never drawn.", LINE(-0.1, 1.1),
+      buffon_piecewise_constant(room[0], sizeof room[0], NULL, heights, 6));
+
+ENTRY("Straight lines", "Heights at a few points, and straight lines between them.",
+      LINE(-0.1, 1.1), buffon_piecewise_linear(room[1], sizeof room[1], NULL, heights, 6));
+
+ENTRY("Weights", "One of a number of items by their weights, in constant time.", BARS(0, 5),
+      buffon_alias(room[2], sizeof room[2], heights, 6));
+
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
       "same chance.");
@@ -43,6 +54,13 @@ ENTRY("Disk", "Polar coordinates: the radius is the square root of a uniform.",
 
 ENTRY("Disk, concentric", "Squares become circles; neighbours stay neighbours.",
       PLANE(-1.1, 1.1, -1.1, 1.1), buffon_disk_concentric(1));
+
+ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
+      buffon_bilinear(1, 4, 3, 0));
+
+const double pixels[] = {1, 0, 3, 1, 2, 1, 0, 2, 6, 3, 2, 0, 1, 2, 1, 0};
+ENTRY("Grid", "An image: cells, each of its own height.", FIELD(-0.1, 1.1, -0.1, 1.1),
+      buffon_piecewise_grid(room[3], sizeof room[3], pixels, 4, 4));
 
 /* ---- directions ---- */
 GROUP("Directions", "Unit vectors; the density is by solid angle.");
@@ -63,3 +81,6 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
+
+ENTRY("Picture of a sky", "Directions by the luminance of an image in longitude and latitude.",
+      SPHERE, buffon_environment(room[4], sizeof room[4], pixels, 8, 2));
