@@ -2,18 +2,12 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
- *     layer 2  inversion  exponential  normal
- *     layer 2  simplex  parallelogram
- *     layer 2  density  box  disk  sphere  cap  hemisphere
- *     layer 2  inversion  exponential  normal  gamma
- *     layer 2  table  alias
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
- *     layer 2  inversion  exponential  normal
- *     layer 2  laws
- *     layer 2  verify_density
- *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
+ *     layer 2  density
+ *     layer 2  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  ball  cylinder  simplex  parallelogram
+ *     layer 2  inversion  exponential  normal  laws  gamma
  *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
  * Includes point down, or to the left within a row.

@@ -19,7 +19,7 @@ BUFFON_API size_t buffon_piecewise_constant_size(size_t count);
 /** A density of steps: a histogram.
  *
  *  Out:     memory  the table: `size` bytes, at least buffon_piecewise_constant_size(count),
- *                   aligned as malloc's memory is; must outlive the density; overlaps no array
+ *                   aligned as malloc's memory is; outlives the density; overlaps no other array
  *  In:      edge[count + 1]  strictly increasing, from first to last 2^-900 to 2^900; NULL: equal
  *                            pieces of [0, 1], edge[k] = k / count
  *           height[count]    finite, >= 0, not all 0; need not be normalised
@@ -52,8 +52,8 @@ BUFFON_API size_t buffon_piecewise_linear_size(size_t count);
  *  Law:     g runs straight from height[k] / integral at knot[k] to height[k+1] / integral at
  *           knot[k+1]. Within a piece with heights a and b the part t of its mass lies below the
  *           part s of its width: s = t (a + b) / (a + sqrt((1 - t) a^2 + t b^2)), which cancels
- *           nowhere; beyond the middle 1 - s is found likewise, so that both ends keep their digits.
- *           x grows with u but for rounding
+ *           nowhere; beyond the middle 1 - s is found likewise, so that both ends keep their
+ *           digits. x grows with u but for rounding
  *  Draws:   1
  *  Returns: as buffon_piecewise_constant
  *  Exact:   F(x) is u within 2^-51 and 2 ulp of x, g within 5 ulp (tests/test_tables.c)
