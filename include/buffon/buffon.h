@@ -2,24 +2,12 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  sphere_n
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
- *     layer 2  inversion  exponential  normal
- *     layer 2  simplex  parallelogram
- *     layer 2  density  box  disk  sphere  cap  hemisphere
- *     layer 2  inversion  exponential  normal  gamma
- *     layer 2  table  alias
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
- *     layer 2  inversion  exponential  normal
- *     layer 2  laws
- *     layer 2  verify_density
- *     layer 2  density  box  disk  sphere  cap  hemisphere  inversion  exponential  normal
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
- *     layer 2  ball  cylinder  simplex  parallelogram  spherical  rotation
- *     layer 2  inversion  exponential  normal  laws  gamma
+ *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta
  *     layer 2  table  alias  piecewise  bilinear  environment
- *     layer 2  inversion  exponential  normal  gamma  beta  student
+ *     layer 2  student
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -31,8 +19,8 @@
 #include "alias.h"
 #include "api.h"
 #include "ball.h"
-#include "bilinear.h"
 #include "beta.h"
+#include "bilinear.h"
 #include "box.h"
 #include "cap.h"
 #include "cap_cosine.h"
@@ -65,13 +53,13 @@
 #include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
-#include "spherical.h"
 #include "sphere_n.h"
+#include "spherical.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
-#include "table.h"
 #include "student.h"
+#include "table.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
