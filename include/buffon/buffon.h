@@ -5,9 +5,8 @@
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
- *     layer 2  inversion  exponential  normal  laws  gamma  beta
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
  *     layer 2  table  alias  piecewise  bilinear  environment
- *     layer 2  student
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
