@@ -147,8 +147,8 @@ ENTRY("Sector", "Between two circles and two angles.", PLANE(-1.1, 1.1, -1.1, 1.
 ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellipse(1, 0.5));
 
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
-ENTRY("Triangle in the plane", "Low distortion: no corner is pinched.", PLANE(-1.1, 1.1, -1.1, 1.1),
-      buffon_triangle_flat(west, east, north));
+ENTRY("Triangle in the plane", "A root and a straight line; all meets in one corner.",
+      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_triangle_flat(west, east, north));
 ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
       buffon_bilinear(1, 4, 3, 0));
 
@@ -181,6 +181,15 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
+
+const double eye[] = {0, 0, 0}, near[] = {1, -1, -0.3}, side[] = {1.2, 0.9, 0.2};
+const double top[] = {0.2, 0.3, 1.5}, frame[] = {0.9, -1, -0.4}, along[] = {0, 2.2, 0};
+const double upward[] = {0, 0, 1.3};
+ENTRY("Triangle seen from a point", "A lamp of three corners, even to the eye.", SPHERE,
+      buffon_spherical_triangle(eye, near, side, top));
+
+ENTRY("Rectangle seen from a point", "A window: strips of even solid angle.", SPHERE,
+      buffon_spherical_rectangle(eye, frame, along, upward));
 
 /* ---- shapes in space ---- */
 GROUP("Shapes in space", "Seen from afar; what is further off is fainter.");
