@@ -89,6 +89,24 @@ static void family_round(void)
     family_add("all but a tiny cap", buffon_cap_complement_height(1e-18, up));
 }
 
+/* Caps over, across and under the horizon of a surface that looks up. */
+static void family_cap_cosine(void)
+{
+    static const double up[3] = {0, 0, 1}, high[3] = {1, 1, 2}, low[3] = {2, 1, 0.25};
+    static const double below[3] = {3, 1, -0.5}, under[3] = {1, 0, -20}, grazing[3] = {1, 0, -0.54};
+    family_plain("cosine cap", buffon_cap_cosine(0.5, high, up));
+    family_add("cosine cap across the horizon", buffon_cap_cosine(0.5, low, up))->how.samples =
+        1 << 13;
+    family_add("cosine cap, small", buffon_cap_cosine(1e-5, high, family_axis));
+    family_add("cosine cap, sky", buffon_cap_cosine(0x1.921fb54442d18p+0, up, up));
+    family_add("cosine cap, to the horizon", buffon_cap_cosine(0.5, high, family_axis));
+    family_add("cosine cap, half", buffon_cap_cosine(0.25, low, (double[3]){-1, 2, 0}));
+    family_add("cosine cap, wide", buffon_cap_cosine(1.5, high, family_axis));
+    family_add("cosine cap, mostly below", buffon_cap_cosine(0.3, below, up));
+    family_add("cosine cap, looking down", buffon_cap_cosine(1.55, under, up))->unseen = 1;
+    family_add("cosine cap, grazing", buffon_cap_cosine(0.5, grazing, up));
+}
+
 static void family_directional(void)
 {
     static const double up[3] = {0, 0, 1};
@@ -122,6 +140,17 @@ static void family_flat(void)
 
 static void family_spherical(void)
 {
+    static const double o[3] = {0.5, -1, 2}, a[3] = {1, 2, -0.5}, b[3] = {-2, 0.25, 1};
+    static const double c[3] = {0.1, 0.2, 3}, e1[3] = {2, 0, 1}, e2[3] = {-0.5, 3, 1};
+    static const double across[3] = {1, -3, -2}, far[3] = {40, -30, 20}, above[3] = {0.6, 0.5, 0};
+    family_plain("spherical triangle", buffon_spherical_triangle(o, a, b, c));
+    family_add("spherical triangle, large", buffon_spherical_triangle(above, a, b, c));
+    family_add("spherical triangle, 30 sizes away", buffon_spherical_triangle(far, a, b, c));
+    family_plain("spherical rectangle", buffon_spherical_rectangle(o, a, e1, across));
+    family_add("spherical rectangle, aside", buffon_spherical_rectangle(o, e2, e1, across));
+    family_add("spherical rectangle, mirrored", buffon_spherical_rectangle(o, b, e1, across));
+    family_add("spherical rectangle, far", buffon_spherical_rectangle(far, a, e1, across));
+    family_plain("rotation", buffon_rotation())->unseen = 1;
 }
 
 /* ---- gamma, beta and their kin ---- */
@@ -152,8 +181,70 @@ static void family_laws(void)
 
 /* ---- tables ---- */
 
+/* Memory for a table. The verification runs once; nothing is given back. */
+static void *family_room(size_t size)
+{
+    void *room = malloc(size);
+    if (!room)
+        abort();
+    return room;
+}
+
+static void family_whole(family_case *added)
+{
+    added->how.discrete = 1;
+}
+
+static void family_items(void)
+{
+    static const double few[] = {3, 0, 1, 4, 1, 5, 0}, far[] = {1e-300, 1e300, 0, 1e299, 5e-324};
+    static double many[1000];
+    const size_t alias = buffon_alias_size(1000), guide = buffon_guide_size(1000);
+    for (size_t k = 0; k < 1000; k++)
+        many[k] = k % 5 ? 1 / (double)(k + 1) : 0;
+    family_whole(family_add("alias, few items", buffon_alias(family_room(alias), alias, few, 7)));
+    family_whole(family_plain("alias", buffon_alias(family_room(alias), alias, many, 1000)));
+    family_whole(family_add("alias, far apart", buffon_alias(family_room(alias), alias, far, 5)));
+    family_whole(family_plain("guide table", buffon_guide(family_room(guide), guide, many, 1000)));
+    family_whole(
+        family_add("guide table, one item", buffon_guide(family_room(guide), guide, few, 1)));
+}
+
+static void family_skies(void)
+{
+    static double sky[64 * 32];
+    const size_t size = buffon_environment_size(64, 32);
+    for (size_t k = 0; k < 64 * 32; k++)
+        sky[k] = 1 + (double)(k * 7919 % 101) / 50;
+    family_plain("environment", buffon_environment(family_room(size), size, sky, 64, 32));
+    sky[300] = 1e5;
+    for (size_t k = 20 * 64; k < 32 * 64; k++)
+        sky[k] = 0;
+    family_add("environment with a sun", buffon_environment(family_room(size), size, sky, 64, 32))
+        ->unseen = 1;
+    family_add("environment of a pixel", buffon_environment(family_room(size), size, sky, 1, 1));
+}
+
 static void family_tables(void)
 {
+    static const double edge[] = {-1, -0.5, 0, 2, 2.25, 4}, height[] = {2, 0, 1, 8, 0.5, 0};
+    static const double thin[] = {0, 1e-200, 1e-10, 1, 1e10, 1e200};
+    static double grid[16 * 9];
+    const size_t size = buffon_piecewise_grid_size(16, 9);
+    for (size_t k = 0; k < 16 * 9; k++)
+        grid[k] = (double)(k * 5 % 23) - 2 > 0 ? (double)(k * 5 % 23) : 0;
+    family_items();
+    family_plain("steps", buffon_piecewise_constant(family_room(size), size, edge, height, 5));
+    family_add("steps, very uneven",
+               buffon_piecewise_constant(family_room(size), size, thin, height, 5))
+        ->unseen = 1;
+    family_plain("lines", buffon_piecewise_linear(family_room(size), size, edge, height, 6));
+    family_add("lines, even", buffon_piecewise_linear(family_room(size), size, NULL, height, 6));
+    family_plain("grid", buffon_piecewise_grid(family_room(size), size, grid, 16, 9));
+    family_plain("bilinear", buffon_bilinear(1, 2, 0.5, 4));
+    family_add("bilinear, two corners", buffon_bilinear(0, 1, 1, 0));
+    family_add("bilinear, one corner", buffon_bilinear(0, 0, 0x1p-1000, 0));
+    family_skies();
 }
 
 /* ---- tables made by numerical inversion ---- */
@@ -186,6 +277,20 @@ static void family_n_spheres(void)
     family_plain("ball of 3 dimensions", buffon_ball_n(3));
     family_plain("ball of 8 dimensions", buffon_ball_n(8))->unseen = 1;
     family_add("ball of 99 dimensions", buffon_ball_n(99))->unseen = 1;
+static void family_beta(void)
+{
+    family_plain("beta 2 3", buffon_beta(2, 3));
+    family_plain("beta 0.5 0.5", buffon_beta(0.5, 0.5))->unseen = 1;
+    family_plain("beta 50 20", buffon_beta(50, 20));
+    family_add("beta 0.1 3", buffon_beta(0.1, 3))->unseen = 1;
+    family_add("beta 10 10", buffon_beta(10, 10));
+    family_add("beta 5 1e6", buffon_beta(5, 1e6));
+    family_add("beta 1e8 1e10", buffon_beta(1e8, 1e10));
+    family_plain("t 3", buffon_student_t(3));
+    family_plain("t 30", buffon_student_t(30));
+    family_add("t 1", buffon_student_t(1));
+    family_add("t 0.5", buffon_student_t(0.5))->unseen = 1;
+    family_add("t 1e10", buffon_student_t(1e10));
 }
 
 static void family_lines(void)
@@ -206,6 +311,13 @@ static void family_lines(void)
     family_add("exponential between bounds, nearly even",
                buffon_exponential_truncated(1e-200, 0, 1e10))
         ->how.over = &to_far;
+    family_plain("normal between bounds", buffon_normal_truncated(0, 1, -1, 2));
+    family_plain("normal beyond 3", buffon_normal_truncated(0, 1, 3, INFINITY));
+    family_plain("normal, its far tail", buffon_normal_truncated(-1e5, 1, 0, INFINITY));
+    family_add("normal, a sliver", buffon_normal_truncated(-20, 1, 0, 1e-10));
+    family_add("normal below the mean", buffon_normal_truncated(1e3, 1, -INFINITY, 0));
+    family_plain("lognormal", buffon_lognormal(0.5, 0.75));
+    family_add("lognormal, heavy", buffon_lognormal(-20, 8))->unseen = 1;
     family_plain("linear", buffon_linear(-1, 2, 1, 3));
     family_add("linear, from 0", buffon_linear(0, 1e-100, 0, 1e300));
     family_add("linear, to 0", buffon_linear(-5, 0, 1e-300, 0))->how.over = &to_zero;
@@ -273,6 +385,8 @@ static void family_pieces(void)
     family_within(family_plain("simplex 3", buffon_simplex(3)), &cube[3]);
     family_within(family_plain("simplex 5", buffon_simplex(5)), &cube[5]);
     family_unseen("simplex 16", buffon_simplex(16));
+    family_gamma();
+    family_beta();
 }
 
 static void family_products(void)
@@ -288,6 +402,7 @@ static void family_make(void)
 {
     family_shapes();
     family_round();
+    family_cap_cosine();
     family_directional();
     family_n_spheres();
     family_flat();

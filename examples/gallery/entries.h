@@ -111,6 +111,16 @@ ENTRY("Alias table", "Any weights, in constant time, by bits that are exact.", B
 ROOM(guide, buffon_guide_size(12));
 ENTRY("Guide table", "The same weights by inversion: items keep their order.", BARS(0, 11),
       buffon_guide(guide, guide_size, odds, 12));
+static uint64_t room[5][512];
+const double heights[] = {0.2, 0.9, 0.5, 0, 0.7, 0.3};
+ENTRY("Steps", "A histogram; what has height 0 is never drawn.", LINE(-0.1, 1.1),
+      buffon_piecewise_constant(room[0], sizeof room[0], NULL, heights, 6));
+
+ENTRY("Straight lines", "Heights at a few points, and straight lines between them.",
+      LINE(-0.1, 1.1), buffon_piecewise_linear(room[1], sizeof room[1], NULL, heights, 6));
+
+ENTRY("Weights", "One of a number of items by their weights, in constant time.", BARS(0, 5),
+      buffon_alias(room[2], sizeof room[2], heights, 6));
 
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
@@ -139,6 +149,12 @@ ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellip
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
 ENTRY("Triangle in the plane", "Low distortion: no corner is pinched.", PLANE(-1.1, 1.1, -1.1, 1.1),
       buffon_triangle_flat(west, east, north));
+ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
+      buffon_bilinear(1, 4, 3, 0));
+
+const double pixels[] = {1, 0, 3, 1, 2, 1, 0, 2, 6, 3, 2, 0, 1, 2, 1, 0};
+ENTRY("Grid", "An image: cells, each of its own height.", FIELD(-0.1, 1.1, -0.1, 1.1),
+      buffon_piecewise_grid(room[3], sizeof room[3], pixels, 4, 4));
 
 /* ---- directions ---- */
 GROUP("Directions", "Unit vectors; the density is by solid angle.");
@@ -211,3 +227,5 @@ ENTRY("Product of two normals", "Independent coordinates, each by its own law.",
 const buffon_density round[] = {buffon_disk(0.7), buffon_segment(-0.8, 0.8)};
 ENTRY("Product of disk and segment", "A solid cylinder.", SPACE(0, 0, 0, 1.05),
       buffon_density_product(round, 2));
+ENTRY("Picture of a sky", "Directions by the luminance of an image in longitude and latitude.",
+      SPHERE, buffon_environment(room[4], sizeof room[4], pixels, 8, 2));
