@@ -53,8 +53,8 @@ static int linear_sample(double *x, double *pdf, const double *u, size_t n, cons
 {
     const double *p = g->param, lo = p[LINEAR_LO], hi = p[LINEAR_HI], width = p[LINEAR_WIDTH];
     for (size_t i = 0; i < n; i++) {
-        const double low = linear_place(u[i], 1 - u[i], p[LINEAR_A], p[LINEAR_B], width);
-        const double high = linear_place(1 - u[i], u[i], p[LINEAR_B], p[LINEAR_A], width);
+        const double low = laws_linear_place(u[i], 1 - u[i], p[LINEAR_A], p[LINEAR_B], width);
+        const double high = laws_linear_place(1 - u[i], u[i], p[LINEAR_B], p[LINEAR_A], width);
         x[i] = density_between(low < high ? lo + low : hi - high, lo, hi);
     }
     return pdf ? linear_pdf(pdf, x, n, g) : 0;
