@@ -185,7 +185,7 @@ const double eye[] = {0, 0, 0}, p[] = {2, -1, 2}, q[] = {-1, -2, 0.5}, r[] = {1.
 ENTRY("Spherical triangle", "The directions in which a triangle is seen, by solid angle.", SPHERE,
       buffon_spherical_triangle(eye, p, q, r));
 
-const double qp[] = {2, 1.3, 0.8}, qr[] = {1, -0.6, -1.5};
+const double qp[] = {2, 1, 0}, qr[] = {0.4, -0.8, -1.6};
 ENTRY("Spherical rectangle", "The directions in which a rectangular lamp is seen.", SPHERE,
       buffon_spherical_rectangle(eye, q, qp, qr));
 
