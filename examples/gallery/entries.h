@@ -148,7 +148,7 @@ ENTRY("Sector", "Between two circles and two angles.", PLANE(-1.1, 1.1, -1.1, 1.
 ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellipse(1, 0.5));
 
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
-ENTRY("Triangle in the plane", "Low distortion: no corner is pinched.", PLANE(-1.1, 1.1, -1.1, 1.1),
+ENTRY("Triangle in the plane", "Three corners, every point alike.", PLANE(-1.1, 1.1, -1.1, 1.1),
       buffon_triangle_flat(west, east, north));
 
 /* ---- directions ---- */
@@ -189,7 +189,7 @@ const double qp[] = {2, 1, 0}, qr[] = {0.4, -0.8, -1.6};
 ENTRY("Spherical rectangle", "The directions in which a rectangular lamp is seen.", SPHERE,
       buffon_spherical_rectangle(eye, q, qp, qr));
 
-ENTRY("Rotations", "All alike; each hair is a pole that was turned, and what was its x axis.",
+ENTRY("Rotations", "All alike: each hair is where a turn takes the pole, and points where x went.",
       FRAMES, buffon_rotation());
 
 /* ---- shapes in space ---- */

@@ -141,6 +141,24 @@ static void view_dots(text *out, const char *class, dot *d, size_t n, const doub
         text_put(out, "\"/>");
 }
 
+/* How many of the dots to draw, so that they stay apart: as many as suit the area on which they
+ * fall. The first of even points are even too. */
+static size_t view_enough(const dot *d, size_t n)
+{
+    enum { ACROSS = 48 };
+    unsigned char taken[ACROSS * ACROSS] = {0};
+    size_t cells = 0;
+    for (size_t i = 0; i < n; i++) {
+        int x = d[i].x * ACROSS / (10 * VIEW_SIDE), y = d[i].y * ACROSS / (10 * VIEW_SIDE);
+        if (x < 0 || x >= ACROSS || y < 0 || y >= ACROSS || taken[y * ACROSS + x])
+            continue;
+        taken[y * ACROSS + x] = 1;
+        cells++;
+    }
+    size_t enough = cells + cells / 2;
+    return n < enough ? n : enough;
+}
+
 /* Where a point of the density is drawn, and how far towards the eye it lies: -1 to 1 or so. */
 typedef struct camera {
     double size[2], middle[2], scale, depth;
@@ -295,7 +313,7 @@ static void view_plane(text *out, const buffon_density *g, view v, const char *c
         view_shades(out, &c, g, v, class);
     else
         view_net(out, &c, g);
-    view_dots(out, class, d, seen, size, opacity);
+    view_dots(out, class, d, view_enough(d, seen), size, opacity);
     text_put(out, "</svg>\n");
     free(d);
     free(x);
@@ -334,7 +352,7 @@ static void view_space(text *out, const buffon_density *g, view v, const char *c
 {
     static const double size[] = {1.7, 1.8, 1.9, 2, 2.1, 2.2, 2.4, 2.6};
     static const double sphere[] = {0.28, 0.31, 0.35, 0.4, 0.7, 0.76, 0.83, 0.9};
-    static const double solid[] = {0.3, 0.38, 0.46, 0.54, 0.63, 0.72, 0.81, 0.9};
+    static const double solid[] = {0.4, 0.47, 0.54, 0.61, 0.68, 0.75, 0.82, 0.9};
     camera c = view_camera(v);
     double *x = view_points(g, VIEW_DOTS);
     dot *d = need_memory(VIEW_DOTS * sizeof *d);
@@ -350,7 +368,7 @@ static void view_space(text *out, const buffon_density *g, view v, const char *c
     view_begin(out, &c, v.kind == VIEW_SPHERE);
     if (!v.extra)
         view_net(out, &c, g);
-    view_dots(out, class, d, seen, size, v.kind == VIEW_SPHERE ? sphere : solid);
+    view_dots(out, class, d, view_enough(d, seen), size, v.kind == VIEW_SPHERE ? sphere : solid);
     text_put(out, "</svg>\n");
     free(d);
     free(x);
