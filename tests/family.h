@@ -85,6 +85,26 @@ static void family_beta(void)
     family_add("t 1e10", buffon_student_t(1e10));
 }
 
+static family_case *family_counts(family_case *one)
+{
+    one->how.discrete = 1;
+    return one;
+}
+
+static void family_discrete(void)
+{
+    family_counts(family_plain("bernoulli", buffon_bernoulli(0.3)));
+    family_counts(family_plain("geometric", buffon_geometric(0.2)));
+    family_counts(family_plain("binomial 20", buffon_binomial(20, 0.3)));
+    family_counts(family_plain("binomial 1e6", buffon_binomial(1000000, 0.3)));
+    family_counts(family_plain("poisson 10", buffon_poisson(10)));
+    family_counts(family_plain("poisson 1e6", buffon_poisson(1e6)));
+    family_counts(family_add("geometric, rare", buffon_geometric(1e-14)))->unseen = 1;
+    family_counts(family_add("binomial, rare", buffon_binomial(UINT64_C(1) << 50, 1e-15)));
+    family_counts(family_add("binomial, often", buffon_binomial(1000, 0.999)));
+    family_counts(family_add("poisson 1e15", buffon_poisson(1e15)))->unseen = 1;
+}
+
 static void family_lines(void)
 {
     family_plain("normal", buffon_normal(0, 1));
@@ -93,6 +113,7 @@ static void family_lines(void)
     family_add("exponential, fast", buffon_exponential(1e100));
     family_gamma();
     family_beta();
+    family_discrete();
 }
 
 static void family_products(void)

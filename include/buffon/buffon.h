@@ -3,7 +3,7 @@
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
  *     layer 2  density  box  disk  sphere  cap  hemisphere
- *     layer 2  inversion  exponential  normal  gamma  beta  student
+ *     layer 2  inversion  exponential  normal  gamma  beta  student  counts
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -16,6 +16,7 @@
 #include "beta.h"
 #include "box.h"
 #include "cap.h"
+#include "counts.h"
 #include "cpu.h"
 #include "density.h"
 #include "disk.h"
