@@ -21,6 +21,7 @@ enum {
     VERIFY_AXES = 8,     /* uniforms that are looked at one by one; axes of cells */
     VERIFY_DIM = 16,     /* most coordinates and uniforms where differences are taken */
     VERIFY_CELLS = 4096, /* at most */
+    VERIFY_COARSE = 64,  /* groups of them */
     VERIFY_PER_CELL = 16 /* points by which the pdf's share of a cell is found */
 };
 
@@ -28,7 +29,8 @@ enum {
 #define VERIFY_STRETCH 1e-6  /* by which the volume may be off, beside the error of differences */
 #define VERIFY_NOISE 0x1p-51 /* of a computed number, relative */
 #define VERIFY_ROUND 0x1p-48 /* what the rounding of a number may be worth, relative */
-#define VERIFY_HEAVY 0.02    /* the largest share of a sum of squares that passes for light */
+#define VERIFY_BEYOND 1e-6 /* of a pdf to that of `over`, where no uniform of the generator leads */
+#define VERIFY_HEAVY 0.02  /* the largest share of a sum of squares that passes for light */
 
 /* n points of a density. */
 typedef struct verify_cloud {
@@ -118,7 +120,7 @@ static double verify_pdf_slack(const verify *t, const verify_cloud *cloud, size_
     }
     *status = buffon_density_pdf(pdf, x, n, t->g);
     for (size_t k = 0; k < n && *status == BUFFON_OK; k++) {
-        const double off = buffon_priv_abs(pdf[k] - cloud->pdf[i]);
+        const double off = buffon_priv_abs(pdf[k] - t->again[i]);
         slack += off > 0 ? off : 0;
     }
     return slack;
@@ -152,19 +154,13 @@ static int verify_points(verify *t, const verify_cloud *cloud, buffon_status *st
     return *status == BUFFON_OK;
 }
 
-static int verify_order(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median and half the distance of the quartiles of each coordinate. */
 static void verify_measure(verify *t, const verify_cloud *cloud)
 {
     const size_t n = cloud->n;
     for (size_t j = 0; j < t->g->dim && j < VERIFY_DIM; j++) {
         memcpy(t->again, cloud->x + j * n, n * sizeof *t->again);
-        qsort(t->again, n, sizeof *t->again, verify_order);
+        buffon_priv_sort(t->again, n);
         const double half = 0.5 * t->again[n - 1 - n / 4] - 0.5 * t->again[n / 4];
         const double range = t->again[n - 1] - t->again[0];
         t->middle[j] = t->again[n / 2];
@@ -474,20 +470,21 @@ static void verify_cover(verify *t, const verify_cloud *cloud)
     t->over = &t->own[dim];
 }
 
-/* SUPPORT, of points i of `over` where the pdf of g is positive: the way back and forth leads to
- * them again, as far as the rounding of uniforms lets it. */
+/* SUPPORT, of point i of `over` where the pdf of g is positive: the way back and forth leads to it
+ * again, as far as the rounding of uniforms lets it. A point beyond the outermost uniforms may be
+ * one of a long tail, and then has next to no pdf. */
 static buffon_status verify_support(verify *t, const verify_cloud *cloud, size_t i)
 {
     verify_cloud *near = &t->other;
     const size_t n = cloud->n, uniforms = t->g->uniforms, dim = t->g->dim;
     double y[VERIFY_DIM], v[VERIFY_DIM], worst = 0;
+    int beyond = 0;
     for (size_t d = 0; d < dim; d++)
         y[d] = cloud->x[d * n + i];
     buffon_status status = buffon_density_invert(v, y, 1, t->g);
     near->n = 1 + 2 * uniforms;
     for (size_t j = 0; j < uniforms; j++) {
-        if (v[j] <= 0x1p-53 || v[j] >= 1 - 0x1p-53)
-            return status; /* the point may lie beyond all that uniforms reach */
+        beyond |= v[j] <= 0x1p-53 || v[j] >= 1 - 0x1p-53;
         for (size_t k = 0; k < near->n; k++)
             near->u[j * near->n + k] = v[j];
         near->u[j * near->n + 1 + 2 * j] = density_inside(v[j] * (1 - 0x1p-48));
@@ -503,6 +500,8 @@ static buffon_status verify_support(verify *t, const verify_cloud *cloud, size_t
         const double error = buffon_priv_abs(x[0] - y[d]) / allowed;
         worst = error > worst || error != error ? error : worst;
     }
+    if (beyond)
+        worst = cloud->pdf[i] / VERIFY_BEYOND;
     near->n = 1; /* the place: the uniforms found, and the point */
     for (size_t d = 0; d < dim; d++)
         near->x[d] = y[d];
@@ -658,6 +657,26 @@ static buffon_status verify_count(verify *t, const verify_grid *grid)
     return BUFFON_OK;
 }
 
+/* Neighbours taken together, VERIFY_COARSE groups of them: many cells see a narrow mistake, few a
+ * slight but wide one. Returns how many groups there are. */
+static size_t verify_coarsen(verify *t, size_t cells)
+{
+    const size_t length = (cells + VERIFY_COARSE - 1) / VERIFY_COARSE;
+    size_t groups = 0;
+    for (size_t c = 0; c < cells; groups++) {
+        double sum[3] = {0, 0, 0};
+        for (size_t k = 0; k < length && c < cells; k++, c++) {
+            sum[0] += t->count[c];
+            sum[1] += t->expected[c];
+            sum[2] += t->variance[c];
+        }
+        t->count[groups] = sum[0];
+        t->expected[groups] = sum[1];
+        t->variance[groups] = sum[2];
+    }
+    return groups;
+}
+
 /* CELLS: the shares that are known, then all others as one. */
 static void verify_cells(verify *t, const verify_grid *grid, const char *known)
 {
@@ -682,6 +701,9 @@ static void verify_cells(verify *t, const verify_grid *grid, const char *known)
     }
     verify_judge(t, BUFFON_VERIFY_CELLS,
                  buffon_priv_p_cells(t->count, t->expected, t->variance, kept));
+    const size_t coarse = verify_coarsen(t, kept);
+    verify_judge(t, BUFFON_VERIFY_CELLS,
+                 buffon_priv_p_cells(t->count, t->expected, t->variance, coarse));
 }
 
 /* SUPPORT, TOTAL and CELLS. Where the ratio of the pdfs has a heavy tail its mean says little, and
@@ -727,7 +749,7 @@ static buffon_status verify_discrete(verify *t)
         memcpy(t->even + done, cloud->x, cloud->n * sizeof *cloud->x);
         done += cloud->n;
     }
-    qsort(t->even, samples, sizeof *t->even, verify_order);
+    buffon_priv_sort(t->even, samples);
     const double least = t->even[0], range = t->even[samples - 1] - least;
     if (!(range < 0x1p+20))
         return BUFFON_OK;
@@ -783,7 +805,7 @@ static buffon_status verify_defaults(verify *t, const buffon_verification *how)
     const buffon_status status = buffon_density_check(t->g);
     if (status != BUFFON_OK || t->how.over == NULL)
         return status;
-    if (t->how.over->dim != t->g->dim)
+    if (t->how.over->status == BUFFON_OK && t->how.over->dim != t->g->dim)
         return BUFFON_E_DIM;
     return buffon_density_check(t->how.over);
 }
@@ -888,7 +910,7 @@ static int verify_applies(const verify *t, size_t check)
 static buffon_status verify_conclude(verify *t)
 {
     buffon_verify_report *report = t->report;
-    const double statistics = 3 + (double)t->g->uniforms;
+    const double statistics = 4 + (double)t->g->uniforms;
     buffon_status status = BUFFON_OK;
     for (size_t k = BUFFON_VERIFY_CHECKS; k-- > 0;) {
         buffon_verify_item *item = &report->item[k];
