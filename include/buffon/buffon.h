@@ -5,7 +5,7 @@
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
- *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student  counts
  *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
@@ -22,6 +22,7 @@
 #include "bilinear.h"
 #include "box.h"
 #include "cap.h"
+#include "counts.h"
 #include "cap_cosine.h"
 #include "cpu.h"
 #include "cylinder.h"
