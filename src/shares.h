@@ -61,7 +61,8 @@ void buffon_priv_guide_make(uint32_t *first, unsigned bits, const uint64_t *boun
  * What is no uniform gives some unit all the same, as tables are read by it. */
 static inline uint64_t shares_unit(double *rest, double u)
 {
-    const double least = u > 0 ? u : 0, t = 0x1p62 * (least < 1 ? least : 1 - 0x1p-53);
+    const double most = 1 - 0x1p-53, above = u > 0 ? u : 0;
+    const double t = 0x1p62 * (above < most ? above : most);
     const int64_t unit = (int64_t)t;
     *rest = t - (double)unit;
     return (uint64_t)unit;
