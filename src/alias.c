@@ -11,7 +11,7 @@
 
 /* ---- alias --------------------------------------------------------------------------------- */
 
-/* A bin is one word: the threshold in the upper 63 - b of 63 bits, the other item in the lower b,
+/* A bin is one word: the threshold in the upper 62 - b of 62 bits, the other item in the lower b,
  * where there are 2^b bins. Bin i gives item i for units below the threshold, else the other one.
  * A bin that is all its own has itself as the other. Behind the bins are the probabilities, and one
  * word more. */
@@ -42,12 +42,12 @@ size_t buffon_alias_size(size_t count)
         sizeof(double));
 }
 
-/* The item of a unit of 63 bits, chosen by arithmetic: no predictor knows which side it will be.
+/* The item of a unit of 62 bits, chosen by arithmetic: no predictor knows which side it will be.
  * With the lower b bits set, the unit's part in the bin is below the word just where it is below
  * the threshold. */
 static inline uint64_t alias_take(const uint64_t *bins, unsigned b, uint64_t unit)
 {
-    const uint64_t index = unit >> (63 - b), low = (UINT64_C(1) << b) - 1;
+    const uint64_t index = unit >> (62 - b), low = (UINT64_C(1) << b) - 1;
     const uint64_t bin = bins[index], inside = (unit << b & (SHARES_WHOLE - 1)) | low;
     const uint64_t own = 0 - (uint64_t)(inside < bin);
     return (index & own) | (bin & low & ~own);
@@ -275,7 +275,7 @@ static buffon_status alias_check(const buffon_density *g)
 /* Where in its side of its bin the unit is: from 0 to 1. */
 static double alias_rest(const uint64_t *bins, unsigned b, uint64_t unit, double rest)
 {
-    const uint64_t room = SHARES_WHOLE >> b, bin = bins[unit >> (63 - b)];
+    const uint64_t room = SHARES_WHOLE >> b, bin = bins[unit >> (62 - b)];
     const uint64_t threshold = bin >> b, inside = unit & (room - 1);
     if (inside < threshold)
         return ((double)(int64_t)inside + rest) / (double)(int64_t)threshold;
@@ -297,11 +297,11 @@ static void guide_pick(size_t *index, double *pmf, double *rest, double u,
                        const buffon_priv_table *table)
 {
     const uint64_t *bound = guide_bounds(table);
-    double below;
+    double below, left;
     const uint64_t unit = shares_unit(&below, u);
     *index = shares_find(bound, guide_first(table), (unsigned)table->bits[0], unit);
     *pmf = guide_pmf(table)[*index];
-    *rest = shares_into(bound, *index, unit, below);
+    *rest = shares_into(&left, bound, *index, unit, below);
 }
 
 buffon_status buffon_alias_pick(size_t *index, double *pmf, double *rest, double u,
@@ -334,13 +334,13 @@ static void alias_translate(uint32_t *index, const uint64_t *word, size_t n,
         const uint64_t *bins = alias_bins(table);
         const unsigned b = (unsigned)table->bits[0];
         for (size_t i = 0; i < n; i++)
-            index[i] = (uint32_t)alias_take(bins, b, word[i] >> 1);
+            index[i] = (uint32_t)alias_take(bins, b, word[i] >> 2);
     } else {
         const uint64_t *bound = guide_bounds(table);
         const uint32_t *first = guide_first(table);
         const unsigned bits = (unsigned)table->bits[0];
         for (size_t i = 0; i < n; i++)
-            index[i] = (uint32_t)shares_find(bound, first, bits, word[i] >> 1);
+            index[i] = (uint32_t)shares_find(bound, first, bits, word[i] >> 2);
     }
 }
 

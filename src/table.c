@@ -91,7 +91,7 @@ static buffon_status block_check(const buffon_priv_table *table, size_t size)
         return BUFFON_E_NULL;
     if (size < sizeof *table || !block_is_aligned(table))
         return BUFFON_E_SIZE;
-    if (table->magic <= TABLE_MAGIC || table->magic > TABLE_MAGIC + TABLE_GUIDE ||
+    if (table->magic <= TABLE_MAGIC || table->magic > TABLE_MAGIC + TABLE_ENVIRONMENT ||
         table->bytes < sizeof *table)
         return BUFFON_E_CORRUPT;
     if (table->bytes > size)
@@ -104,5 +104,16 @@ buffon_density buffon_table_open(const void *table, size_t size)
     const buffon_status status = block_check(table, size);
     if (status != BUFFON_OK)
         return table_refused(&block_refused_ops, 1, 1, status);
-    return buffon_priv_alias_view(table);
+    switch (buffon_priv_table_kind(table)) {
+    case TABLE_ALIAS:
+    case TABLE_GUIDE:
+        return buffon_priv_alias_view(table);
+    case TABLE_CONSTANT:
+    case TABLE_LINEAR:
+    case TABLE_GRID:
+        return buffon_priv_piecewise_view(table);
+    case TABLE_ENVIRONMENT:
+        break;
+    }
+    return buffon_priv_environment_view(table);
 }

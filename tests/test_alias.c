@@ -62,13 +62,13 @@ static int agree(const buffon_density *alias, const buffon_density *guide, size_
     return good && b[0] == 0 && b[count] == SHARES_WHOLE;
 }
 
-/* 2^63 p / q, rounded to the nearest and up where two are near, for p <= q < 2^62: one bit after
+/* 2^62 p / q, rounded to the nearest and up where two are near, for p <= q < 2^62: one bit after
  * the other. */
 static uint64_t ratio(uint64_t p, uint64_t q)
 {
     uint64_t out = p == q;
     uint64_t rest = p == q ? 0 : p;
-    for (int k = 0; k < 63; k++) {
+    for (int k = 0; k < 62; k++) {
         rest *= 2;
         out = 2 * out + (rest >= q);
         rest -= rest >= q ? q : 0;
@@ -104,8 +104,8 @@ static void test_equal(void)
         good &= agree(&a, &g, m);
         exact &= bounds_are(&g, ones, m);
     }
-    tap_ok(good, "m times 1/m: alias and guide give each item the same units, 2^63 in all");
-    tap_ok(exact, "m times 1/m: bounds are k 2^63 / m, rounded once");
+    tap_ok(good, "m times 1/m: alias and guide give each item the same units, 2^62 in all");
+    tap_ok(exact, "m times 1/m: bounds are k 2^62 / m, rounded once");
 }
 
 /* Whole numbers of very different sizes, zeros among them, and powers of two times them. */
@@ -151,9 +151,9 @@ static void extreme(const char *name, const double *w, size_t count)
             worst = fmax(worst,
                          (double)fabsl(p[0] - w[k] / sum) / (nextafter(exact, INFINITY) - exact));
         if (LDBL_MANT_DIG >= 64)
-            good &= fabsl(ldexpl((wide)units[k], -63) - w[k] / sum) <= 0x1.01p-63L;
+            good &= fabsl(ldexpl((wide)units[k], -62) - w[k] / sum) <= 0x1.01p-62L;
     }
-    tap_ok(good, "%s: item by item within 2^-63", name);
+    tap_ok(good, "%s: item by item within 2^-62", name);
     tap_ok(zero, "%s: weight 0 has no unit", name);
     if (!tap_ok(pdf_good && worst <= 2, "%s: p within 2 ulp", name))
         tap_note("%.3f", worst);
@@ -195,7 +195,7 @@ static size_t plainly(const uint64_t *b, uint64_t unit)
 
 static uint64_t unit_of(double u)
 {
-    return (uint64_t)(u * 0x1p63);
+    return (uint64_t)(u * 0x1p62);
 }
 
 /* Weights of a kind, `count` of them. */
@@ -220,7 +220,7 @@ static void test_guide(void)
         for (int i = 0; i < 2500; i++) {
             /* Uniforms, and the very ends of steps. */
             const size_t near = (size_t)buffon_rng_below(&rng, count);
-            const double end = ldexp((double)(b[near] >> 10), -53);
+            const double end = ldexp((double)(b[near] >> 9), -53);
             const double u = i % 5 == 4 && end > 0 && end < 1 ? end : grid(&rng, i);
             double x, again, p, q, rest;
             size_t k;
@@ -228,7 +228,7 @@ static void test_guide(void)
             right &= x == (double)plainly(b, unit_of(u));
             right &= buffon_alias_pick(&k, &q, &rest, u, &g) == BUFFON_OK;
             right &= (double)k == x && p == q && p > 0 && weight[k] > 0;
-            const double back = (double)(b[k] + rest * (wide)(b[k + 1] - b[k])) * 0x1p-63;
+            const double back = (double)(b[k] + rest * (wide)(b[k + 1] - b[k])) * 0x1p-62;
             inside &= rest > 0 && rest < 1;
             rest_good &= rest < 0x1p-52 || rest > 1 - 0x1p-52 || fabs(back - u) <= 0x1p-52;
             const double more = u + 0x1p-20;
@@ -310,7 +310,7 @@ static void test_law(void)
     }
 }
 
-/* Words are used as they are: the item of the word's upper 63 bits. However the stretch is cut. */
+/* Words are used as they are: the item of the word's upper 62 bits. However the stretch is cut. */
 static void test_fill(void)
 {
     enum { DRAWS = 3000 };
@@ -323,8 +323,8 @@ static void test_fill(void)
     int right = buffon_alias_fill(whole, DRAWS, &g, &rng) == BUFFON_OK, cuts;
     buffon_rng_fill_words(word, DRAWS, &same);
     for (size_t i = 0; i < DRAWS; i++)
-        right &= whole[i] == plainly(bounds_of(&g), word[i] >> 1);
-    tap_ok(right, "fill: the step of the CDF that holds a word's upper 63 bits");
+        right &= whole[i] == plainly(bounds_of(&g), word[i] >> 2);
+    tap_ok(right, "fill: the step of the CDF that holds a word's upper 62 bits");
     cuts = buffon_rng_tell(&rng) == buffon_rng_tell(&same);
     same = again;
     cuts &= buffon_alias_fill(whole, DRAWS, &a, &again) == BUFFON_OK;

@@ -29,7 +29,7 @@ BUFFON_API size_t buffon_alias_size(size_t count);
  *  In:      weight[count]  finite, >= 0, not all 0; of any size, their sum may leave the doubles
  *  Law:     x = k, a whole number from 0 on, with pdf p[k] = weight[k] / sum: a density with
  *           respect to counting. From random words (buffon_alias_fill) item k comes with a
- *           probability that is a whole number of 2^-63 and within one of them of p[k], exactly 0
+ *           probability that is a whole number of 2^-62 and within one of them of p[k], exactly 0
  *           for weight 0; these add up to 1 exactly. Uniforms are words of 52 bits: with them each
  *           bin is cut within 2^-53
  *  Draws:   1
@@ -58,10 +58,10 @@ BUFFON_API size_t buffon_guide_size(size_t count);
  *
  *  Out, In: as buffon_alias
  *  Law:     x = k where the weights before k, relative to the sum, are at most u and those up to k
- *           are more. These bounds are whole numbers of 2^-63, rounded once. pdf as buffon_alias
+ *           are more. These bounds are whole numbers of 2^-62, rounded once. pdf as buffon_alias
  *  Draws:   1
  *  Returns: as buffon_alias
- *  Exact:   bounds within 2^-64, p within 2 ulp (tests/test_alias.c)
+ *  Exact:   bounds within 2^-63, p within 2 ulp (tests/test_alias.c)
  *  Cost:    a draw looks in an index of as many cells as items: some two items on average, the
  *           logarithm of their number where they crowd. 60 ns an item to make
  *  Source:  H. Chen, Y. Asau (1974), On generating random variates from an empirical distribution
@@ -90,7 +90,7 @@ BUFFON_API BUFFON_CHECK buffon_status buffon_alias_pick(size_t *index, double *p
  *  Out:     index[n]  0 on error
  *  In/Out:  rng       moves on by n words, by none on error
  *  In:      g         of buffon_alias or buffon_guide
- *  Law:     item by item as buffon_alias and buffon_guide say, from the upper 63 bits of a word
+ *  Law:     item by item as buffon_alias and buffon_guide say, from the upper 62 bits of a word
  *  Returns: as buffon_alias_pick
  *  Repeat:  the same items however the stretch is cut
  *  Since:   0.1

@@ -15,7 +15,7 @@
  * A block has no pointers in it. It may be moved, saved, mapped from a file or shared by processes,
  * on machines of the same byte order, and used there after buffon_table_open.
  *
- * Masses are kept as whole numbers of units of 2^-63 that add up to 2^63 exactly: the sum of the
+ * Masses are kept as whole numbers of units of 2^-62 that add up to 2^62 exactly: the sum of the
  * first k of them is right within half a unit, whatever their number and sizes. So no point is out
  * of reach, none is drawn where there is no mass, and tables are never read beyond their ends.
  */
