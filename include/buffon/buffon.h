@@ -2,6 +2,10 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  inversion  exponential  normal
+ *     layer 2  laws
+ *     layer 2  mixture  truncated  affine
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
@@ -15,6 +19,7 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "affine.h"
 #include "alias.h"
 #include "api.h"
 #include "ball.h"
@@ -41,6 +46,7 @@
 #include "inversion.h"
 #include "laws.h"
 #include "math.h"
+#include "mixture.h"
 #include "normal.h"
 #include "parallelogram.h"
 #include "partial.h"
@@ -58,6 +64,7 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "truncated.h"
 #include "student.h"
 #include "table.h"
 #include "uniform.h"
