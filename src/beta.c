@@ -21,6 +21,7 @@
 
 #include "elementary.h"
 #include "quantile.h"
+#include "special.h"
 
 #define BETA_LEAST 1e-16 /* below it and above the other the steps do not settle */
 #define BETA_MOST 1e30
@@ -41,23 +42,6 @@ typedef struct beta_place {
     double density; /* log D */
 } beta_place;
 
-/* log Gamma(z) - ((z - 1/2) log z - z + log(2 pi) / 2) for z > 0: Stirling's series from 12 up,
- * where six terms leave 1e-16; below, d(z) = d(z + 1) + (z + 1/2) log(1 + 1/z) - 1. */
-static double beta_stirling(double z)
-{
-    double sum = 0, r, w;
-    for (; z < 12; z += 1) {
-        sum += (z + 0.5) * buffon_priv_log1p(1 / z) - 1;
-    }
-    r = 1 / z;
-    w = r * r;
-    return sum + r * (0x1.5555555555555p-4 +
-                      w * (-0x1.6c16c16c16c17p-9 +
-                           w * (0x1.a01a01a01a01ap-11 +
-                                w * (-0x1.3813813813814p-11 +
-                                     w * (0x1.b951e2b18ff23p-11 + w * -0x1.f6ab0d9993c7dp-10)))));
-}
-
 static beta_law beta_law_make(double a, double b)
 {
     beta_law law;
@@ -65,8 +49,8 @@ static beta_law beta_law_make(double a, double b)
     law.b = b;
     law.x0 = a / (a + b);
     law.y0 = b / (a + b);
-    law.peak = 0.5 * buffon_priv_log(a * law.y0) - BETA_LOG_SQRT_2PI + beta_stirling(a + b) -
-               beta_stirling(a) - beta_stirling(b);
+    law.peak = 0.5 * buffon_priv_log(a * law.y0) - BETA_LOG_SQRT_2PI + buffon_priv_stirling(a + b) -
+               buffon_priv_stirling(a) - buffon_priv_stirling(b);
     return law;
 }
 
@@ -154,8 +138,8 @@ static beta_tail beta_tail_fraction(const beta_law *law, const beta_place *at)
  * and from there on an integral of D, which is nearly normal: Gauss's rule with eight points. */
 static beta_tail beta_tail_near(const beta_law *law, const beta_place *at, double mu, double sd)
 {
-    static const double node[4] = {0x1.ebab1cb0acc67p-1, 0x1.97e4ab249f41ep-1,
-                                   0x1.0d129583284b4p-1, 0x1.77ac94f3c7345p-3};
+    static const double node[4] = {0x1.ebab1cb0acc67p-1, 0x1.97e4ab249f41ep-1, 0x1.0d129583284b4p-1,
+                                   0x1.77ac94f3c7345p-3};
     static const double weight[4] = {0x1.9ea1d04ca0374p-4, 0x1.c76fb531d2b96p-3,
                                      0x1.413c50a255615p-2, 0x1.736360b199343p-2};
     const double middle = 0.5 * (mu - sd), half = 0.5 * (mu + sd);

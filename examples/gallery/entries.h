@@ -27,6 +27,9 @@ const buffon_inversion table = {.x = knots, .F = shares, .count = 5};
 ENTRY("Inverse of a table", "A distribution function known at a few points, straight in between.",
       LINE(-0.2, 4.2), buffon_inverse(&table));
 
+ENTRY("von Mises", "The normal law of angles: kappa is how much they agree.", LINE(-3.3, 3.3),
+      buffon_von_mises(2, 0));
+
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
       "same chance.");

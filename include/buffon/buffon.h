@@ -5,6 +5,11 @@
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
  *     layer 2  cap_cosine
  *     layer 2  inversion  exponential  normal
+ *     layer 2  density
+ *     layer 2  box  disk  sphere  cap  hemisphere  directional
+ *     layer 2  ball  cylinder  simplex  parallelogram
+ *     layer 2  inversion  exponential  normal  laws  gamma
+ *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -13,8 +18,10 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "alias.h"
 #include "api.h"
 #include "ball.h"
+#include "bilinear.h"
 #include "box.h"
 #include "cap.h"
 #include "cap_cosine.h"
@@ -23,26 +30,33 @@
 #include "density.h"
 #include "directional.h"
 #include "disk.h"
+#include "environment.h"
 #include "estimate.h"
 #include "exponential.h"
+#include "gamma.h"
 #include "hemisphere.h"
 #include "importance.h"
 #include "integrand.h"
 #include "interval.h"
 #include "inverse_cdf.h"
 #include "inversion.h"
+#include "laws.h"
 #include "math.h"
 #include "normal.h"
+#include "parallelogram.h"
 #include "partial.h"
+#include "piecewise.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
 #include "run.h"
+#include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "table.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
