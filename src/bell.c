@@ -31,17 +31,18 @@ static void bell_shape(double *f, double c, double v)
     }
 }
 
-void buffon_priv_bell_make(buffon_priv_bell *bell, double c, double v, double n, double log_gain)
+void buffon_priv_bell_make(buffon_priv_bell *bell, double c, double v, double n, double log_gain,
+                           double r)
 {
-    const double gain = buffon_priv_exp(log_gain), r = 1 / n;
+    const double gain = buffon_priv_exp(log_gain), step = 1 / n;
     double *s = bell->s;
     bell->n = n;
     bell->root = sqrt(n);
     bell->gain = gain;
-    bell->reach = v > 0.5 ? 0.7 : 1;
+    bell->reach = 1 / sqrt(r);
     bell_shape(bell->f, c, v);
     for (int k = BELL_TERMS; k > 0; k--)
-        s[k - 1] = gain * bell->f[k] + (k + 1 < BELL_TERMS ? (k + 1) * r * s[k + 1] : 0);
+        s[k - 1] = gain * bell->f[k] + (k + 1 < BELL_TERMS ? (k + 1) * step * s[k + 1] : 0);
 }
 
 /* Terms that a zeta needs: they fall by 2.5 / |zeta| at least. */
@@ -57,6 +58,18 @@ static double bell_series(const double *c, double zeta, int terms)
     for (int k = terms - 1; k >= 0; k--)
         sum = c[k] + zeta * sum;
     return sum;
+}
+
+/* Both series, side by side. */
+static void bell_both(double *f, double *s, const buffon_priv_bell *bell, double zeta)
+{
+    double f_sum = 0, s_sum = 0;
+    for (int k = bell_terms(zeta) - 1; k >= 0; k--) {
+        f_sum = bell->f[k] + zeta * f_sum;
+        s_sum = bell->s[k] + zeta * s_sum;
+    }
+    *f = f_sum;
+    *s = s_sum;
 }
 
 double buffon_priv_bell_distance(const buffon_priv_bell *bell, double zeta)
@@ -101,12 +114,11 @@ double buffon_priv_bell_quantile(const buffon_priv_bell *bell, double z)
     double w = z + first * (1 - 0.5 * z * first + (s[1] + 2 * start * s[2]) * r * r);
     for (int i = 0; i < 8; i++) {
         const double zeta = w * r;
-        const int terms = bell_terms(zeta);
-        double k, f, bend;
+        double k, f, rest, bend;
         if (!(buffon_priv_abs(zeta) <= bell->reach))
             return (double)NAN;
-        f = bell_series(bell->f, zeta, terms);
-        k = bell_between(w, w - z) - bell_series(s, zeta, terms) * r;
+        bell_both(&f, &rest, bell, zeta);
+        k = bell_between(w, w - z) - rest * r;
         k /= bell->gain * f;
         bend = 0.5 * (w - (bell->f[1] + 2 * zeta * bell->f[2]) * r / f);
         w -= k / (1 + bend * k);

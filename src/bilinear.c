@@ -6,7 +6,7 @@
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "linear.h"
+#include "ramp.h"
 
 /* param: v00, v10, v01, v11, scaled by a power of two so that the largest is in [1/2, 1); then four
  * over their sum. */
@@ -22,10 +22,10 @@ static double bilinear_height(const double *v, double x, double y)
 }
 
 /* From the nearer end. */
-static double bilinear_place(double a, double b, double u)
+static double biramp_place(double a, double b, double u)
 {
     double s, c;
-    linear_place(&s, &c, a, b, u, 1 - u);
+    ramp_place(&s, &c, a, b, u, 1 - u);
     return s < c ? s : 1 - c;
 }
 
@@ -33,8 +33,8 @@ static int bilinear_draw(double *x, double *pdf, const double *u, size_t n, cons
 {
     const double *v = g->param;
     for (size_t i = 0; i < n; i++) {
-        const double y = bilinear_place(v[0] + v[1], v[2] + v[3], u[n + i]);
-        x[i] = bilinear_place(bilinear_mix(v[0], v[2], y), bilinear_mix(v[1], v[3], y), u[i]);
+        const double y = biramp_place(v[0] + v[1], v[2] + v[3], u[n + i]);
+        x[i] = biramp_place(bilinear_mix(v[0], v[2], y), bilinear_mix(v[1], v[3], y), u[i]);
         x[n + i] = y;
         if (pdf)
             pdf[i] = bilinear_height(v, x[i], y);
@@ -57,8 +57,8 @@ static int bilinear_unmap(double *u, const double *x, size_t n, const buffon_den
     for (size_t i = 0; i < n; i++) {
         const double y = x[n + i];
         const double a = bilinear_mix(v[0], v[2], y), b = bilinear_mix(v[1], v[3], y);
-        u[i] = density_open(linear_mass(a, b, x[i], 1 - x[i]));
-        u[n + i] = density_open(linear_mass(v[0] + v[1], v[2] + v[3], y, 1 - y));
+        u[i] = density_open(ramp_mass(a, b, x[i], 1 - x[i]));
+        u[n + i] = density_open(ramp_mass(v[0] + v[1], v[2] + v[3], y, 1 - y));
     }
     return 0;
 }

@@ -125,13 +125,6 @@ static double truncated_away(int *back, double *left, double v, double rest, con
     return high;
 }
 
-static double truncated_hold(double x, double lo, double hi)
-{
-    const double up = buffon_priv_nextup(lo), down = buffon_priv_nextdown(hi);
-    const double least = up < hi ? up : lo, most = up < hi ? down : hi;
-    return x < least ? least : x > most ? most : x;
-}
-
 /* |x - base| of a point of the support, else -1. */
 static double truncated_distance(double x, const double *p)
 {
@@ -173,7 +166,7 @@ static int truncated_sample(double *x, double *pdf, const double *u, size_t n,
         int back;
         const double away = truncated_away(&back, &left, v, rest, p);
         x[i] = back ? p[TRUNCATED_OTHER] - sign * away : p[TRUNCATED_BASE] + sign * away;
-        x[i] = truncated_hold(x[i], lo, hi);
+        x[i] = density_between(x[i], lo, hi);
         if (pdf)
             pdf[i] = p[TRUNCATED_PEAK] * left;
     }

@@ -18,12 +18,13 @@ enum { GAMMA_TERMS = 90, GAMMA_ALTERNATING = 26, GAMMA_STEPS = 1000 };
 
 /* The variable is t = log(y / unit), unit = max(a, 1), in which the density is
  *
- *     D = y^a exp(-y) / Gamma(a) = exp(peak - a (exp(t) - 1 - t))  or  exp(peak + a t - exp(t)).
+ *     D = y^a exp(-y) / Gamma(a) = exp(peak - a (exp(t) - 1 - t))  or  a exp(peak + a t - exp(t)).
  *
  * Far from the mode of a large shape nothing of the size of a cancels. `param`: shape, scale, and
  * what follows from them. */
 typedef struct gamma_law {
     double a, unit, log_unit, scale, log_scale;
+    double size;        /* min(a, 1), which is kept out of log D */
     double peak;        /* as above */
     double log_gamma1p; /* log Gamma(1 + a), of a < 1 */
     double series[GAMMA_TERMS];
@@ -33,7 +34,7 @@ typedef struct gamma_law {
 
 static double gamma_peak(double a)
 {
-    return a < 1 ? buffon_priv_log(a) - buffon_priv_lgamma1p(a)
+    return a < 1 ? -buffon_priv_lgamma1p(a)
                  : 0.5 * (buffon_priv_log(a) - GAMMA_LOG_2PI) - buffon_priv_stirling(a);
 }
 
@@ -46,6 +47,7 @@ static void gamma_law_at(gamma_law *law, const buffon_density *g)
     law->peak = g->param[3];
     law->log_gamma1p = g->param[4];
     law->unit = law->a < 1 ? 1 : law->a;
+    law->size = law->a < 1 ? law->a : 1;
     law->log_unit = law->a < 1 ? 0 : g->param[5];
 }
 
@@ -64,17 +66,17 @@ static void gamma_law_make(gamma_law *law, const buffon_density *g)
         law->alternating[k - 1] = 1 / (factorial * (law->a + k));
     }
     if (law->a >= GAMMA_BELL)
-        buffon_priv_bell_make(&law->bell, 1, 0, law->a, -g->param[6]);
+        buffon_priv_bell_make(&law->bell, 1, 0, law->a, -g->param[6], 1);
 }
 
-/* log D */
+/* log(D / size) */
 static double gamma_log_density(const gamma_law *law, double t, double y)
 {
     const double a = law->a;
     return a < 1 ? law->peak + (a * t - y) : law->peak - a * (buffon_priv_expm1(t) - t);
 }
 
-/* P(Y <= y) / D for y at most a little above a. */
+/* P(Y <= y) size / D for y at most a little above a. */
 static double gamma_lower(const gamma_law *law, double y)
 {
     const double z = y / law->unit;
@@ -86,7 +88,7 @@ static double gamma_lower(const gamma_law *law, double y)
         if (term < 0x1p-56 * sum)
             break;
     }
-    return sum / law->a;
+    return sum * (law->size / law->a);
 }
 
 /* P(Y > y) / D for y above a: Legendre's continued fraction, its convergents by Steed's method. */
@@ -123,7 +125,7 @@ static double gamma_upper(const gamma_law *law, double t, double y, double log_d
         return gamma_upper_small(law, t, y) * buffon_priv_exp(-log_density);
     if (y < a + 1 && y < GAMMA_BELL + 1)
         return buffon_priv_exp(-log_density) - gamma_lower(law, y);
-    return gamma_fraction(a, y);
+    return law->size * gamma_fraction(a, y);
 }
 
 static void gamma_place(buffon_priv_place *at, double t, int upper, const void *ctx)
@@ -131,6 +133,7 @@ static void gamma_place(buffon_priv_place *at, double t, int upper, const void *
     const gamma_law *law = ctx;
     const double y = law->unit * buffon_priv_exp(t);
     double s = -y;
+    at->unit = law->size;
     at->density = gamma_log_density(law, t, y);
     at->ratio = upper ? gamma_upper(law, t, y, at->density) : gamma_lower(law, y);
     at->slope[0] = law->a - y;
@@ -195,7 +198,7 @@ static double gamma_point(const gamma_law *law, double u)
     return x > DBL_MIN ? x : DBL_MIN;
 }
 
-/* log(g x) = log D */
+/* log(g x / size) = log(D / size) */
 static double gamma_log_at(const gamma_law *law, double x)
 {
     const double a = law->a, y = x / law->scale;
@@ -212,7 +215,8 @@ static double gamma_pdf_at(const gamma_law *law, double x)
     if (!(x > 0 && x <= DBL_MAX))
         return 0;
     const double log_d = gamma_log_at(law, x);
-    return log_d > -700 ? buffon_priv_exp(log_d) / x : buffon_priv_exp(log_d - buffon_priv_log(x));
+    return law->size * (log_d > -700 ? buffon_priv_exp(log_d) / x
+                                     : buffon_priv_exp(log_d - buffon_priv_log(x)));
 }
 
 static int gamma_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
@@ -220,7 +224,7 @@ static int gamma_draw(double *x, double *pdf, const double *u, size_t n, const b
     gamma_law law;
     gamma_law_make(&law, g);
     for (size_t i = 0; i < n; i++) {
-        x[i] = gamma_point(&law, u[i]);
+        x[i] = gamma_point(&law, density_inside(u[i]));
         if (pdf)
             pdf[i] = gamma_pdf_at(&law, x[i]);
     }
@@ -240,9 +244,11 @@ static int gamma_log_pdf(double *log_pdf, const double *x, size_t n, const buffo
 {
     gamma_law law;
     gamma_law_at(&law, g);
+    const double log_size = law.a < 1 ? g->param[5] : 0;
     for (size_t i = 0; i < n; i++)
-        log_pdf[i] = x[i] > 0 && x[i] <= DBL_MAX ? gamma_log_at(&law, x[i]) - buffon_priv_log(x[i])
-                                                 : -(double)INFINITY;
+        log_pdf[i] = x[i] > 0 && x[i] <= DBL_MAX
+                         ? log_size + (gamma_log_at(&law, x[i]) - buffon_priv_log(x[i]))
+                         : -(double)INFINITY;
     return 0;
 }
 
@@ -272,7 +278,7 @@ static double gamma_cdf(const gamma_law *law, double x)
         const double t = y > DBL_MIN ? buffon_priv_log(y) : buffon_priv_log(x) - law->log_scale;
         return 1 - d * gamma_upper(law, t, y, log_d);
     }
-    return y > a + 1 ? 1 - d * gamma_fraction(a, y) : d * gamma_lower(law, y);
+    return y > a + 1 ? 1 - d * law->size * gamma_fraction(a, y) : d * gamma_lower(law, y);
 }
 
 static int gamma_invert(double *u, const double *x, size_t n, const buffon_density *g)

@@ -16,14 +16,6 @@
 #define LAWS_LOG_PI 0x1.250d048e7a1bdp+0
 #define LAWS_LOG_2 0x1.62e42fefa39efp-1
 
-/* x moved between the neighbours of lo and hi, as far as there are any. */
-static double laws_between(double x, double lo, double hi)
-{
-    const double up = buffon_priv_nextup(lo), down = buffon_priv_nextdown(hi);
-    const double least = up < hi ? up : lo, most = up < hi ? down : hi;
-    return x < least ? least : x > most ? most : x;
-}
-
 static buffon_status laws_check_interval(double lo, double hi)
 {
     const double width = hi - lo;
@@ -63,7 +55,7 @@ static int linear_sample(double *x, double *pdf, const double *u, size_t n, cons
     for (size_t i = 0; i < n; i++) {
         const double low = laws_linear_place(u[i], 1 - u[i], p[LINEAR_A], p[LINEAR_B], width);
         const double high = laws_linear_place(1 - u[i], u[i], p[LINEAR_B], p[LINEAR_A], width);
-        x[i] = laws_between(low < high ? lo + low : hi - high, lo, hi);
+        x[i] = density_between(low < high ? lo + low : hi - high, lo, hi);
     }
     return pdf ? linear_pdf(pdf, x, n, g) : 0;
 }
@@ -145,10 +137,10 @@ static int triangular_sample(double *x, double *pdf, const double *u, size_t n,
         double away;
         if (gap > 0) {
             away = triangular_away(&inner, u[i], gap, p[TRIANGLE_A], p[TRIANGLE_BELOW]);
-            x[i] = laws_between(inner ? mode - away : lo + away, lo, hi);
+            x[i] = density_between(inner ? mode - away : lo + away, lo, hi);
         } else {
             away = triangular_away(&inner, 1 - u[i], -gap, p[TRIANGLE_B], p[TRIANGLE_ABOVE]);
-            x[i] = laws_between(inner ? mode + away : hi - away, lo, hi);
+            x[i] = density_between(inner ? mode + away : hi - away, lo, hi);
         }
     }
     return pdf ? triangular_pdf(pdf, x, n, g) : 0;

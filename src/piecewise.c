@@ -6,7 +6,7 @@
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "linear.h"
+#include "ramp.h"
 #include "shares.h"
 
 /* ---- pieces of the line -------------------------------------------------------------------- */
@@ -159,7 +159,7 @@ static int piecewise_draw_lines(double *x, double *pdf, const double *u, size_t 
         const size_t k = shares_find(line.bound, line.first, line.bits, unit);
         const double lo = line.edge[k], hi = line.edge[k + 1], width = hi - lo;
         const double into = shares_into(&left, line.bound, k, unit, rest);
-        linear_place(&s, &c, line.g[k], line.g[k + 1], into, left);
+        ramp_place(&s, &c, line.g[k], line.g[k + 1], into, left);
         const double middle = lo + 0.5 * width, down = hi - c * width;
         const double v = s < c ? lo + s * width : down > middle ? down : middle;
         x[i] = piecewise_inside(&line, k, v);
@@ -188,7 +188,7 @@ static int piecewise_unmap_lines(double *u, const double *x, size_t n, const buf
         const double a = line.g[k], b = line.g[k + 1];
         /* A piece of height 0 has its one uniform. */
         const double t =
-            a + b > 0 ? linear_mass(a, b, (x[i] - lo) / width, (hi - x[i]) / width) : 0;
+            a + b > 0 ? ramp_mass(a, b, (x[i] - lo) / width, (hi - x[i]) / width) : 0;
         u[i] = density_open(shares_uniform(line.bound, k, t));
     }
     return 0;
@@ -241,7 +241,7 @@ static buffon_status piecewise_fill(piecewise_line *line, size_t values, int ran
     if (status != BUFFON_OK)
         return status;
     for (size_t k = 0; k < values; k++) {
-        line->g[k] = buffon_priv_ldexp(line->g[k] / sum.hi, -sum.exponent - range);
+        line->g[k] = buffon_priv_ldexp(line->g[k] / sum.all, -sum.exponent - range);
         if (!(line->g[k] <= 0x1p1022))
             return BUFFON_E_TABLE;
     }

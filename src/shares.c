@@ -3,27 +3,7 @@
 #include "shares.h"
 
 #include "elementary.h"
-
-/* Of a + b what the rounded sum leaves out (D. Knuth 1969), for any a and b. */
-static double shares_sum_rest(double sum, double a, double b)
-{
-    const double c = sum - a;
-    return (a - (sum - c)) + (b - c);
-}
-
-/* The upper half of the digits of x: products of such halves are exact (T. Dekker 1971). */
-static double shares_half(double x)
-{
-    const double c = 0x8000001 * x;
-    return c - (c - x);
-}
-
-/* Of a b what the rounded product leaves out. */
-static double shares_product_rest(double product, double a, double b)
-{
-    const double a1 = shares_half(a), a2 = a - a1, b1 = shares_half(b), b2 = b - b1;
-    return ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
-}
+#include "twofold.h"
 
 int buffon_priv_shares_scale(buffon_priv_shares *sum, double most)
 {
@@ -59,39 +39,42 @@ static void shares_add(uint64_t total[2], double x, int minus)
     }
 }
 
+/* The largest of the masses whose bits are given, or -1 where one is not usable. */
+static double shares_largest(const uint64_t *bits, size_t count)
+{
+    double most = 0;
+    for (size_t k = 0; k < count; k++) {
+        const double mass = buffon_priv_from_bits(bits[k]);
+        if (!(mass >= 0) || !buffon_priv_isfinite(mass))
+            return -1;
+        most = mass > most ? mass : most;
+    }
+    return most;
+}
+
 /* The sum S of the scaled masses is kept to 104 bits, and so is 2^62 / S. Then each mass times that
- * is exact to 2^-40 of a unit, however many there are, and enters a sum of whole 2^-64 of a unit,
+ * is right to 2^-40 of a unit, however many there are, and enters a sum of whole 2^-64 of a unit,
  * which loses less than a unit's 2^-32 in all. So the last sum is 2^62 before it is rounded to
  * units, and as no term is negative, the bounds never fall. A mass of 0 adds nothing at all. */
 buffon_status buffon_priv_shares_make(uint64_t *bound, size_t count, buffon_priv_shares *sum)
 {
     uint64_t total[2] = {UINT64_C(1) << 63, 0}; /* half a unit: cutting the sum rounds it */
-    double hi = 0, lo = 0;
-    double most = 0;
-    for (size_t k = 1; k <= count; k++) {
-        const double mass = buffon_priv_from_bits(bound[k]);
-        if (!(mass >= 0) || !buffon_priv_isfinite(mass))
-            return BUFFON_E_SHAPE;
-        most = mass > most ? mass : most;
-    }
-    if (buffon_priv_shares_scale(sum, most))
+    twofold all = {0, 0}, whole = {0x1p62, 0};
+    if (buffon_priv_shares_scale(sum, shares_largest(bound + 1, count)))
         return BUFFON_E_SHAPE;
     for (size_t k = 1; k <= count; k++) {
-        const double mass = shares_scaled(sum, buffon_priv_from_bits(bound[k])), s = hi + mass;
-        lo += shares_sum_rest(s, hi, mass);
-        hi = s + lo;
-        lo -= hi - s;
+        const double mass = shares_scaled(sum, buffon_priv_from_bits(bound[k]));
+        const twofold s = twofold_sum(all.hi, mass);
+        all = twofold_sum(s.hi, s.lo + all.lo);
     }
-    sum->hi = hi;
-    sum->lo = lo;
-    const double f = 0x1p62 / hi, p = f * hi;
-    const double g = (((0x1p62 - p) - shares_product_rest(p, f, hi)) - f * lo) / hi;
+    const twofold per = twofold_over(whole, all);
+    sum->all = all.hi;
     bound[0] = 0;
     for (size_t k = 1; k <= count; k++) {
         const double mass = shares_scaled(sum, buffon_priv_from_bits(bound[k]));
-        const double product = mass * f;
-        const double rest = shares_product_rest(product, mass, f) + mass * g;
-        shares_add(total, product, 0);
+        const twofold units = twofold_product(mass, per.hi);
+        const double rest = units.lo + mass * per.lo;
+        shares_add(total, units.hi, 0);
         shares_add(total, buffon_priv_abs(rest), rest < 0);
         bound[k] = total[1];
     }
@@ -188,7 +171,7 @@ static double sheet_row(const buffon_priv_sheet *sheet, size_t row)
         return 0;
     }
     buffon_priv_guide_make(first, sheet->column_bits, bound, sheet->columns);
-    return buffon_priv_ldexp(sum.hi, sum.exponent);
+    return buffon_priv_ldexp(sum.all, sum.exponent);
 }
 
 buffon_status buffon_priv_sheet_make(const buffon_priv_sheet *sheet, const double *weight)

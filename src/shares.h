@@ -22,8 +22,8 @@
 /* What masses add up to. They are scaled by powers of two to have their largest in [1/2, 1). */
 typedef struct buffon_priv_shares {
     double scale, more; /* a mass times both is scaled */
-    double hi, lo;      /* the sum of the scaled masses, to 104 bits */
-    int exponent;       /* the sum itself is hi 2^exponent */
+    double all;         /* the sum of the scaled masses */
+    int exponent;       /* the sum itself is all 2^exponent */
 } buffon_priv_shares;
 
 /* bound[0..count] from the masses, whose bits are in bound[1..count]. BUFFON_E_SHAPE unless all are
@@ -45,7 +45,7 @@ static inline double shares_scaled(const buffon_priv_shares *sum, double mass)
 /* The part of the whole that a mass is, within 2 ulp. */
 static inline double shares_of(const buffon_priv_shares *sum, double mass)
 {
-    return shares_scaled(sum, mass) / sum->hi;
+    return shares_scaled(sum, mass) / sum->all;
 }
 
 /* ---- the index ---- */

@@ -91,7 +91,8 @@ static int simplex_standard_pdf(double *pdf, const double *x, size_t n, const bu
             in &= x[j * n + i] >= 0;
             sum += x[j * n + i];
         }
-        pdf[i] = (in & (sum <= most)) != 0 ? g->param[0] : 0;
+        in &= sum <= most;
+        pdf[i] = in ? g->param[0] : 0;
     }
     return 0;
 }

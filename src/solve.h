@@ -6,10 +6,12 @@
 
 enum { SOLVE_ORDER = 8 };
 
-/* What is known of a law at t: its density D, a tail, and d log D / d t as a power series. */
+/* What is known of a law at t: its density D, a tail, and d log D / d t as a power series. A unit
+ * of the size of D where the tail is 1 keeps its logarithm out of rounding. */
 typedef struct buffon_priv_place {
-    double density; /* log D */
-    double ratio;   /* the tail over D */
+    double unit;
+    double density; /* log(D / unit) */
+    double ratio;   /* the tail over D / unit */
     double slope[SOLVE_ORDER];
 } buffon_priv_place;
 

@@ -4,22 +4,7 @@
 
 #include "elementary.h"
 
-/* Stirling's series from 12 up, where six terms leave 1e-16; below,
- * d(z) = d(z + 1) + (z + 1/2) log(1 + 1/z) - 1. */
-double buffon_priv_stirling(double z)
-{
-    double sum = 0, r, w;
-    for (; z < 12; z += 1) {
-        sum += (z + 0.5) * buffon_priv_log1p(1 / z) - 1;
-    }
-    r = 1 / z;
-    w = r * r;
-    return sum + r * (0x1.5555555555555p-4 +
-                      w * (-0x1.6c16c16c16c17p-9 +
-                           w * (0x1.a01a01a01a01ap-11 +
-                                w * (-0x1.3813813813814p-11 +
-                                     w * (0x1.b951e2b18ff23p-11 + w * -0x1.f6ab0d9993c7dp-10)))));
-}
+#define SPECIAL_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
 
 /* log Gamma(2 + b) = b (1 - gamma) + the sum over k > 1 of (-b)^k (zeta(k) - 1) / k, which falls by
  * 4 a term for |b| <= 1/2. M. Abramowitz, I. Stegun (1964), 6.1.33. */
@@ -43,6 +28,36 @@ static double special_lgamma2p(double b)
 double buffon_priv_lgamma1p(double a)
 {
     return a <= 0.5 ? special_lgamma2p(a) - buffon_priv_log1p(a) : special_lgamma2p(a - 1);
+}
+
+/* d(z) - d(z + 1) = (z + 1/2) log(1 + 1/z) - 1 = r^2 / 3 + r^4 / 5 + ..., r = 1 / (2 z + 1), for
+ * z >= 1.5. */
+static double special_stirling_step(double z)
+{
+    const double r = 1 / (2 * z + 1), w = r * r;
+    double sum = 0;
+    for (int k = 27; k >= 3; k -= 2)
+        sum = 1.0 / k + w * sum;
+    return w * sum;
+}
+
+/* Stirling's series from 12 up, where six terms leave 1e-16; below by steps, or from
+ * log Gamma(z) = log Gamma(1 + z) - log z. */
+double buffon_priv_stirling(double z)
+{
+    double sum = 0, r, w;
+    if (z < 1.5)
+        return buffon_priv_lgamma1p(z) - (z + 0.5) * buffon_priv_log(z) +
+               (z - SPECIAL_LOG_SQRT_2PI);
+    for (; z < 12; z += 1)
+        sum += special_stirling_step(z);
+    r = 1 / z;
+    w = r * r;
+    return sum + r * (0x1.5555555555555p-4 +
+                      w * (-0x1.6c16c16c16c17p-9 +
+                           w * (0x1.a01a01a01a01ap-11 +
+                                w * (-0x1.3813813813814p-11 +
+                                     w * (0x1.b951e2b18ff23p-11 + w * -0x1.f6ab0d9993c7dp-10)))));
 }
 
 /* With r = d / (2 + d), log(1 + d) = 2 (r + r^3 / 3 + ...) and d - 2 r = r d. Sixteen terms for

@@ -1,9 +1,8 @@
 /* Private. Numbers as sums of two doubles, and logarithms of them, for powers.
  *
  * x^y = exp(y log x): an error of log x is magnified by y, in all by |y log x|, which may be 700.
- * So the logarithm is kept as hi + lo with |lo| <= ulp(hi), good to 2^-62 of itself, and its
- * product with y too; then the power is good to 2 ulp. tests/test_line_laws.c shows it through the
- * laws.
+ * So the logarithm is kept as hi + lo with |lo| <= ulp(hi), good to 2^-62 of itself, and so is its
+ * product with y; then the power is good to 2 ulp. tests/test_line_laws.c shows it by the laws.
  */
 #ifndef BUFFON_SRC_TWOFOLD_H
 #define BUFFON_SRC_TWOFOLD_H

@@ -109,8 +109,8 @@ typedef struct mises_search {
 /* One step for all that are still sought; says which are found with it. With m the mass missing
  * over f(h), and -log f(h + d) + log f(h) = a d + b d^2 / 2 + ..., the step is
  * d = m + a m^2 / 2 + (2 a^2 + b) m^3 / 6 + ...; its powers of a alone are those of
- * -log(1 - a m) / a, here a fraction that agrees to that order. What is left is of the order of m (a m)^3, nothing once
- * m is 1e-5 of the law's width. */
+ * -log(1 - a m) / a, here a fraction that agrees to that order. What is left is of the order of
+ * m (a m)^3, nothing once m is 1e-5 of the law's width. */
 static void mises_step(int *found, mises_search *at, double kappa, double bessel)
 {
     double s[MISES_TILE], c[MISES_TILE], square[MISES_TILE], grow[MISES_TILE], mass[MISES_TILE];

@@ -18,7 +18,7 @@ BUFFON_BEGIN
  *           are straight lines, inverted without cancellation (piecewise.h)
  *  Draws:   2
  *  Returns: a density of 2 coordinates; it carries BUFFON_E_SHAPE
- *  Exact:   y within 3 ulp and x, for its y, within 8 ulp, or 2^-52 towards 1; g within 6 ulp
+ *  Exact:   y, and x for its y, within 4 ulp below the median and 2^-52 above it; g within 5 ulp
  *           (tests/test_tables.c)
  *  Since:   0.1
  */

@@ -6,9 +6,9 @@
  *     layer 2  cap_cosine
  *     layer 2  inversion  exponential  normal
  *     layer 2  density
- *     layer 2  box  disk  sphere  cap  hemisphere  directional
- *     layer 2  ball  cylinder  simplex  parallelogram
- *     layer 2  inversion  exponential  normal  laws  gamma
+ *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
+ *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
  *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
@@ -21,6 +21,7 @@
 #include "alias.h"
 #include "api.h"
 #include "ball.h"
+#include "beta.h"
 #include "bilinear.h"
 #include "box.h"
 #include "cap.h"
@@ -49,13 +50,17 @@
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
+#include "rotation.h"
 #include "run.h"
 #include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
+#include "sphere_n.h"
+#include "spherical.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "student.h"
 #include "table.h"
 #include "uniform.h"
 #include "verify_density.h"

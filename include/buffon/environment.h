@@ -33,16 +33,16 @@ BUFFON_API size_t buffon_environment_size(size_t width, size_t height);
  *  Law:     g = luminance / (integral of it over the sphere), by solid angle; the row is found from
  *           u2, the pixel in it from u1, both by inversion, so that stratified points keep their
  *           order. g is that of the law as it is drawn, by whole numbers of 2^-62 of the row and of
- *           the whole: a pixel with less than 2^-63 of its row counts as black. What lies within
- *           2^-48 of the angle between a pole and the side of its pixel, or within 2^-49 of a turn
- *           of it, is drawn in to there, so that a direction has the g of the pixel it was drawn
- *           from
+ *           the whole: a pixel with less than 2^-63 of its row counts as black. Directions keep off
+ *           the sides of their pixel, by 2^-49 of a turn and by 2^-48 of the height from the nearer
+ *           pole, so that a direction has the g of the pixel it was drawn from
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_DIM (width, height), BUFFON_E_NULL,
  *           BUFFON_E_SIZE (the memory), BUFFON_E_SHAPE (the luminances)
- *  Exact:   x, y and z within 2^-50 for its longitude and z, |x| within 2^-50 of 1, g within 12 ulp
- *           and what half a unit is of the row in the whole and of the pixel in its row
- *           (tests/test_tables.c)
+ *  Exact:   F is u, for each of them, within 2^-48 and what 2^-48 of a turn or of a height are
+ *           worth; heights near a pole within 2^-48 of themselves; |x|^2 within 2^-50 of 1; g
+ *           within 6 ulp and what half a unit is of the row in the whole and of the pixel in its
+ *           row (tests/test_tables.c)
  *  Cost:    some 70 ns a pixel to make
  *  Since:   0.1
  */

@@ -30,7 +30,7 @@ BUFFON_API size_t buffon_piecewise_constant_size(size_t count);
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_DIM (count), BUFFON_E_NULL,
  *           BUFFON_E_SIZE (the memory), BUFFON_E_TABLE (the edges, or a g that exceeds 2^1022),
  *           BUFFON_E_SHAPE (the heights)
- *  Exact:   F(x) is u within 2^-51 and 1 ulp of x, g within 5 ulp (tests/test_tables.c)
+ *  Exact:   F(x) is u within 2^-51 and 1 ulp of x, g within 3 ulp (tests/test_tables.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_piecewise_constant(void *memory, size_t size, const double *edge,
@@ -45,7 +45,7 @@ BUFFON_API size_t buffon_piecewise_linear_size(size_t count);
 
 /** A density of straight lines between points.
  *
- *  Out:     memory  as buffon_piecewise_constant, buffon_piecewise_linear_size(count) bytes
+ *  Out:     memory  as buffon_piecewise_constant; buffon_piecewise_linear_size(count) bytes
  *  In:      knot[count]    strictly increasing, from first to last 2^-900 to 2^900; NULL: from 0
  *                          to 1 in equal steps, knot[k] = k / (count - 1); count >= 2
  *           height[count]  finite, >= 0, not all 0
@@ -56,7 +56,7 @@ BUFFON_API size_t buffon_piecewise_linear_size(size_t count);
  *           digits. x grows with u but for rounding
  *  Draws:   1
  *  Returns: as buffon_piecewise_constant
- *  Exact:   F(x) is u within 2^-50 and 1 ulp of x, g within 8 ulp (tests/test_tables.c)
+ *  Exact:   F(x) is u within 2^-51 and 2 ulp of x, g within 5 ulp (tests/test_tables.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_piecewise_linear(void *memory, size_t size, const double *knot,
@@ -83,7 +83,7 @@ BUFFON_API size_t buffon_piecewise_grid_size(size_t columns, size_t rows);
  *  Draws:   2
  *  Returns: a density of 2 coordinates; it carries BUFFON_E_DIM (columns, rows), BUFFON_E_NULL,
  *           BUFFON_E_SIZE (the memory), BUFFON_E_SHAPE (the heights)
- *  Exact:   F is u within 2^-51 for each coordinate; g within 6 ulp of the normalised heights and
+ *  Exact:   F is u within 2^-51 for each coordinate; g within 4 ulp of the normalised heights and
  *           what half a unit is of the row in the whole and of the cell in its row
  *           (tests/test_tables.c)
  *  Cost:    some 70 ns a cell to make
