@@ -6,6 +6,9 @@
  *     layer 2  inversion  exponential  normal
  *     layer 2  laws
  *     layer 2  mixture  truncated  affine
+ *     layer 2  density  box  disk  sphere  cap  hemisphere  directional  ball  cylinder
+ *     layer 2  cap_cosine
+ *     layer 2  inversion  exponential  normal
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
