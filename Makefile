@@ -152,6 +152,8 @@ define example_tree
 $(BUILD)/examples/$(1): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard examples/$(1)/*.c))
 endef
 $(foreach tree,$(example_trees),$(eval $(call example_tree,$(tree))))
+# The gallery draws with what the lecture draws with.
+$(BUILD)/examples/gallery: $(patsubst %,$(BUILD)/obj/examples/lecture/%.o,text figure globe)
 $(BUILD)/obj/examples/%.o: examples/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	@echo "  CC    $<"
@@ -166,9 +168,10 @@ programs: $(tests) $(examples) $(benches) $(BUILD)/tests/bits $(BUILD)/tests/bat
 
 examples: $(examples) ## the programs of examples/, in build/examples/
 
-demo: $(BUILD)/examples/lecture ## the lecture: a table, and build/demo/lecture.html
+demo: $(BUILD)/examples/lecture $(BUILD)/examples/gallery ## build/demo/lecture.html, gallery.html
 	@mkdir -p $(BUILD)/demo
 	@$(BUILD)/examples/lecture $(BUILD)/demo/lecture.html
+	@$(BUILD)/examples/gallery $(BUILD)/demo/gallery.html
 
 # ---- tests --------------------------------------------------------------------------------------
 

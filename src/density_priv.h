@@ -4,6 +4,7 @@
 
 #include <buffon/density.h>
 
+#include "elementary.h"
 #include "mix.h"
 
 /* 1 / pi, which is also 1 / (2 pi) and 1 / (4 pi) but for the exponent. */
@@ -46,6 +47,15 @@ static inline double density_inside(double u)
 {
     const double least = 0x1p-1074, most = 1 - 0x1p-53;
     return u < least ? least : u > most ? most : u;
+}
+
+/* x moved between the neighbours of lo and hi, as far as there are any: rounding may have led it to
+ * a bound. */
+static inline double density_between(double x, double lo, double hi)
+{
+    const double up = buffon_priv_nextup(lo), down = buffon_priv_nextdown(hi);
+    const double least = up < hi ? up : lo, most = up < hi ? down : hi;
+    return x < least ? least : x > most ? most : x;
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <buffon/estimate.h>
 
 #include "exact.h"
+#include "median.h"
 #include "quantile.h"
 #include "record.h"
 #include "spread.h"
@@ -26,8 +27,7 @@ static double estimate_share(const buffon_priv_record *record, size_t output)
         const size_t variant = buffon_priv_spread_variant(record, s);
         buffon_priv_wide mean = buffon_priv_wide_of(0), high, low, n2;
         buffon_stats pool;
-        buffon_priv_spread_pool(&pool, record, s, 0, (size_t)record->shape.replicates,
-                                variant * (size_t)record->shape.outputs + output);
+        buffon_priv_spread_pool(&pool, record, s, variant * (size_t)record->shape.outputs + output);
         if (pool.count < 2)
             return NAN;
         if (variant != 2)
@@ -60,7 +60,7 @@ static void estimate_extremes(buffon_estimate *out, const buffon_priv_record *re
     out->min = out->max = out->tail_index = NAN;
     for (size_t s = 0; s < record->shape.strata; s++) {
         buffon_stats pool;
-        buffon_priv_spread_pool(&pool, record, s, 0, (size_t)record->shape.replicates, output);
+        buffon_priv_spread_pool(&pool, record, s, output);
         out->nonfinite += pool.nonfinite;
         if (pool.count == 0)
             continue;
@@ -83,8 +83,7 @@ static void estimate_extremes(buffon_estimate *out, const buffon_priv_record *re
 static void estimate_weights(buffon_estimate *out, const buffon_priv_record *record)
 {
     buffon_stats pool;
-    buffon_priv_spread_pool(&pool, record, 0, 0, (size_t)record->shape.replicates,
-                            (size_t)record->shape.components);
+    buffon_priv_spread_pool(&pool, record, 0, (size_t)record->shape.components);
     const buffon_priv_wide top = buffon_priv_wide_of(pool.top[0]);
     const buffon_priv_wide sum = buffon_priv_wide_mul(buffon_priv_stats_mean_square(&pool),
                                                       buffon_priv_wide_count(pool.count));
@@ -128,12 +127,25 @@ static void estimate_interval(buffon_estimate *out, const buffon_priv_record *re
         out->interval = BUFFON_INTERVAL_EXACT;
     } else if (out->std_error > 0 && out->std_error < INFINITY && dof > 0 &&
                out->value - out->value == 0) {
-        const double half = buffon_priv_student_two_sided(alpha, dof) * out->std_error +
-                            estimate_rounding(out);
+        const double half =
+            buffon_priv_student_two_sided(alpha, dof) * out->std_error + estimate_rounding(out);
         out->lo = out->value - half;
         out->hi = out->value + half;
         out->interval = BUFFON_INTERVAL_STUDENT;
     }
+}
+
+/* lo and hi of a median, between two of the replicates' estimates. */
+static void estimate_order(buffon_estimate *out, const buffon_priv_median *median, double alpha)
+{
+    const double rounding = estimate_rounding(out);
+    double lo, hi;
+    if (!(out->std_error < INFINITY) || !(out->value - out->value == 0) ||
+        !buffon_priv_median_interval(&lo, &hi, median, alpha))
+        return;
+    out->lo = lo - rounding;
+    out->hi = hi + rounding;
+    out->interval = BUFFON_INTERVAL_ORDER;
 }
 
 static void estimate_doubts(buffon_estimate *out, const buffon_priv_record *record)
@@ -146,7 +158,9 @@ static void estimate_doubts(buffon_estimate *out, const buffon_priv_record *reco
         doubts |= BUFFON_DOUBT(BUFFON_W_NONFINITE);
     if (shape->design == BUFFON_DESIGN_NONE)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_ERROR);
-    else if (out->std_error == INFINITY || out->value - out->value != 0)
+    else if (out->std_error == INFINITY || out->value - out->value != 0 ||
+             (shape->design == BUFFON_DESIGN_MEDIAN && out->std_error > 0 &&
+              out->interval == BUFFON_INTERVAL_NONE))
         doubts |= BUFFON_DOUBT(BUFFON_W_FEW);
     if (out->std_error == 0 && !shape->constant)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_SPREAD);
@@ -189,18 +203,36 @@ static double estimate_variance(const buffon_priv_record *record, size_t k, buff
         return buffon_priv_wide_to_double(buffon_priv_wide_mul(square, buffon_priv_wide_count(n)));
     const buffon_priv_wide factor = buffon_priv_spread_factor(record, 0);
     buffon_stats pool;
-    buffon_priv_spread_pool(&pool, record, 0, 0, (size_t)record->shape.replicates, k);
+    buffon_priv_spread_pool(&pool, record, 0, k);
     return buffon_priv_wide_to_double(buffon_priv_wide_mul(buffon_priv_stats_variance(&pool),
                                                            buffon_priv_wide_mul(factor, factor)));
+}
+
+/* Value and error: the mean and its degrees of freedom, or the median. */
+static double estimate_error(buffon_estimate *out, buffon_priv_median *median,
+                             const buffon_priv_record *record, size_t k)
+{
+    buffon_priv_spread spread = {buffon_priv_wide_of(0), 0};
+    if (record->shape.design == BUFFON_DESIGN_MEDIAN) {
+        buffon_priv_median_make(median, record, k);
+        out->value = buffon_priv_median_value(median);
+        out->std_error = buffon_priv_median_error(median);
+        const buffon_priv_wide error = buffon_priv_wide_of(out->std_error);
+        spread.square = buffon_priv_wide_mul(error, error);
+    } else {
+        spread = buffon_priv_spread_of(record, k, k);
+        out->value = buffon_priv_wide_to_double(buffon_priv_spread_value(record, k));
+        out->std_error = buffon_priv_wide_to_double(buffon_priv_wide_sqrt(spread.square));
+    }
+    out->variance = estimate_variance(record, k, spread.square, out->samples);
+    return spread.dof;
 }
 
 static void estimate_component(buffon_estimate *out, const buffon_priv_record *record, size_t k)
 {
     const buffon_priv_shape *shape = &record->shape;
-    const buffon_priv_spread spread = buffon_priv_spread_of(record, k, k);
-    out->value = buffon_priv_wide_to_double(buffon_priv_spread_value(record, k));
-    out->std_error = buffon_priv_wide_to_double(buffon_priv_wide_sqrt(spread.square));
-    out->variance = estimate_variance(record, k, spread.square, out->samples);
+    buffon_priv_median median;
+    const double dof = estimate_error(out, &median, record, k);
     /* What is not known is the same NaN on every machine. */
     if (out->std_error != out->std_error)
         out->std_error = shape->design == BUFFON_DESIGN_NONE ? NAN : INFINITY;
@@ -214,7 +246,10 @@ static void estimate_component(buffon_estimate *out, const buffon_priv_record *r
         estimate_weights(out, record);
     else if (shape->design <= BUFFON_DESIGN_STRATIFIED)
         out->max_share = estimate_share(record, k);
-    estimate_interval(out, record, spread.dof);
+    if (shape->design == BUFFON_DESIGN_MEDIAN && out->std_error > 0)
+        estimate_order(out, &median, (1 - out->confidence) / (double)shape->looks);
+    else
+        estimate_interval(out, record, dof);
     estimate_doubts(out, record);
 }
 
@@ -258,7 +293,7 @@ buffon_status buffon_stats_estimate(buffon_estimate *out, const buffon_stats *s,
     buffon_priv_record record = {.shape = {.components = 1,
                                            .outputs = 1,
                                            .strata = 1,
-                                           .replicates = 1,
+                                           .per_stratum = 1,
                                            .block = 1024,
                                            .round = 1,
                                            .parts = 1,

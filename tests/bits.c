@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "family.h"
 #include "problems.h"
 
 static uint64_t bits_of(double x)
@@ -109,11 +110,13 @@ static void show_problem(const problem *p)
 
 /* ---- densities ---- */
 
-enum { POINTS = 3000 };
+enum { POINTS = 3000, WIDE = 16 };
 
 static void show_density(const char *name, const buffon_density *g)
 {
-    static double u[4 * POINTS], x[4 * POINTS], pdf[POINTS];
+    static double u[WIDE * POINTS], x[WIDE * POINTS], pdf[POINTS];
+    if (g->uniforms > WIDE || g->dim > WIDE)
+        return;
     buffon_rng rng = buffon_rng_make(7, g->uniforms);
     buffon_rng_fill(u, g->uniforms * POINTS, &rng);
     u[0] = 0x1p-53; /* the ends of what the generator gives */
@@ -192,6 +195,9 @@ static void show_densities(void)
                 {"product", buffon_density_product(parts, 2)}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         show_density(list[i].name, &list[i].g);
+    family_make();
+    for (const family_case *one = family; one < family + family_count; one++)
+        show_density(one->name, &one->g);
 }
 
 /* ---- elementary functions ---- */

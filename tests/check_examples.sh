@@ -1,5 +1,5 @@
 #!/bin/sh
-# Every example runs, says something, and succeeds. The lecture is `make demo`.
+# Every example runs, says something, and succeeds. The lecture is left to `make demo`.
 . tests/tap.sh
 build=$(cd "${BUILD:-build}" && pwd)
 mkdir -p "$build/examples.run"
@@ -12,4 +12,13 @@ for source in examples/*.c; do
     tap_ok $? "$name"
     if [ $code -ne 0 ]; then tail -n 5 "$build/examples.run/$name.err" | sed 's/^/# /'; fi
 done
+
+# The gallery has a card for each of its entries, and no number in it is lost.
+page=$build/examples.run/gallery.html
+"$build/examples/gallery" "$page" > "$build/examples.run/gallery.out" 2>&1
+test "$(grep -c '^ENTRY(' examples/gallery/entries.h)" = "$(grep -c '</svg>$' "$page")"
+tap_ok $? "the gallery draws every entry"
+tap_empty "$(grep -niE '[^a-z](nan|inf)[^a-z]' "$page" | cut -c 1-90)" "and all of each"
+test "$(wc -c < "$page")" -lt 2000000
+tap_ok $? "in less than 2 MB"
 tap_done

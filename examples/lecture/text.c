@@ -9,7 +9,7 @@
 
 void give_up(const char *what, const char *why)
 {
-    fprintf(stderr, "\nlecture: %s: %s\n", what, why);
+    fprintf(stderr, "\n%s: %s\n", what, why);
     exit(EXIT_FAILURE);
 }
 

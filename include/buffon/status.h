@@ -42,10 +42,13 @@
     X(BUFFON_E_PDF, -35, "a pdf is negative or not finite, or zero where the integrand is not")   \
     X(BUFFON_E_INVERSION, -36, "a quantile function failed, or a CDF could not be inverted")      \
     X(BUFFON_E_TRIES, -37, "rejection did not accept within the allowed number of tries")         \
+    X(BUFFON_E_LAW, -38, "points, pdf and inverse of the density do not agree")                   \
     X(BUFFON_E_MISMATCH, -48, "the partial results belong to different runs")                     \
     X(BUFFON_E_OVERLAP, -49, "the partial results hold the same block")                           \
-    X(BUFFON_E_CORRUPT, -50, "the saved partial result is damaged or is none")                    \
-    X(BUFFON_E_SIZE, -51, "the bytes are fewer than the partial result needs")                    \
+    X(BUFFON_E_CORRUPT, -50,                                                                      \
+      "the saved partial result or the table is damaged or is none")                              \
+    X(BUFFON_E_SIZE, -51,                                                                         \
+      "the bytes are fewer than the partial result or the table needs")                           \
     X(BUFFON_E_EMPTY, -52, "there is nothing here to estimate from")                              \
     X(BUFFON_W_CANCELLED, 1, "cancelled: the estimate is that of the blocks done")                \
     X(BUFFON_W_INCOMPLETE, 2, "incomplete: only some parts of the run are here")                  \
@@ -55,7 +58,8 @@
     X(BUFFON_W_NO_SPREAD, 6, "all samples agree: that is not certainty, a feature may be unseen") \
     X(BUFFON_W_HEAVY_TAIL, 7, "heavy tail: the standard error cannot be trusted")                 \
     X(BUFFON_W_DOMINATED, 8, "a single sample carries a tenth of the variance or more")           \
-    X(BUFFON_W_TOLERANCE, 9, "the tolerance was not reached with the samples allowed")
+    X(BUFFON_W_TOLERANCE, 9, "the tolerance was not reached with the samples allowed")             \
+    X(BUFFON_W_UNSEEN, 10, "nothing is wrong with what was looked at, but not all could be")
 
 /** The outcome of a call: see the table above. */
 typedef enum buffon_status {

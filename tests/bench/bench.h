@@ -140,7 +140,7 @@ static void bench_want(const bench_target *target)
     bench_targets[bench_wanted++] = *target;
 }
 
-static void bench_print_targets(void)
+static inline void bench_print_targets(void)
 {
     size_t met = 0;
     printf("\n%-62s %-7s %9s %11s\n", "what is wanted", "level", "wanted", "reached");
@@ -161,7 +161,7 @@ static size_t bench_levels(void)
     return (size_t)buffon_cpu_limit(BUFFON_LEVEL_AVX512) + 1;
 }
 
-static void bench_header(const char *unit)
+static inline void bench_header(const char *unit)
 {
     printf("\n%-40s %8s %8s  ", unit, "min", "median");
     for (size_t level = 0; level < bench_levels(); level++)
@@ -193,7 +193,8 @@ static void bench_want_ratios(const char *title, const bench_peer *peer, size_t 
 }
 
 /* Times buffon at every level, and the peers that are installed; prints a line for each. */
-static void bench_group(const char *title, bench_work *ours, const bench_peer *peers, size_t n)
+static inline void bench_group(const char *title, bench_work *ours, const bench_peer *peers,
+                               size_t n)
 {
     const size_t levels = bench_levels();
     const bench_peer *in[BENCH_MOST] = {NULL};
