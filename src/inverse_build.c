@@ -434,24 +434,29 @@ static int build_centre(build_walk *w, build_place from, build_place to)
 
 /* ---- the table ---- */
 
-/* In each bin at most a few cells are to be passed over. */
+/* Four bins to a cell: few have more than one split. */
 static int build_guide(build_walk *w)
 {
     buffon_inverse_table *table = w->table;
     const inverse_row *cells = inverse_cells(table);
     uint64_t *guide = inverse_guide(table);
     table->bins = 16;
-    while (table->bins < 2 * table->cells)
+    while (table->bins < 4 * table->cells)
         table->bins *= 2;
-    if ((const char *)(guide + table->bins) > (const char *)w->last)
+    double *split = (double *)(void *)(guide + table->bins);
+    if ((const char *)(split + table->bins) > (const char *)w->last)
         return buffon_priv_inverse_refuse(w->b, BUFFON_E_NOMEM, "the memory is too small",
                                           (double)NAN);
+    const uint64_t last = table->cells - 1;
     for (uint64_t bin = 0, k = 0; bin < table->bins; bin++) {
-        while (k + 1 < table->cells && cells[k].to <= (double)bin / (double)table->bins)
+        const double next = (double)(bin + 1) / (double)table->bins;
+        while (k < last && cells[k].to <= (double)bin / (double)table->bins)
             k++;
-        guide[bin] = k;
+        const int many = k < last && cells[k].to < next && cells[k + 1].to < next && k + 1 < last;
+        guide[bin] = 2 * k + (uint64_t)many;
+        split[bin] = k < last ? cells[k].to : 2;
     }
-    table->bytes = (uint64_t)((const char *)(guide + table->bins) - (const char *)table);
+    table->bytes = (uint64_t)((const char *)(split + table->bins) - (const char *)table);
     w->b->report->bytes = (size_t)table->bytes;
     w->b->report->cells = (size_t)(table->tail[0] + table->cells + table->tail[1]);
     return 0;

@@ -436,7 +436,8 @@ static int panel_is_over(inverse_builder *b, const panel_trial *t, const panel_t
 {
     if (end->beyond >= 0 && end->beyond < 1e-4 * b->tail * b->total && t->g[up] > 0)
         return 1;
-    if (!(end->beyond > 0))
+    /* Not before the tail begins. */
+    if (!(end->beyond > 0 && end->beyond < 0x1p-12 * b->total))
         return 0;
     const double depth = buffon_priv_log(end->beyond / b->total) - buffon_priv_log(b->tail);
     double far = m->y + (up ? 1 : -1) * (depth > 0 ? depth : 0) * end->rate;

@@ -16,7 +16,8 @@ typedef struct inverse_row {
 } inverse_row;
 
 /* Followed by the rows of the lower tail, the centre and the upper tail, and by the guide: for each
- * of `bins` equal parts of (0, 1) the cell of the centre that its lower end lies in. */
+ * of `bins` equal parts of (0, 1) twice the cell of the centre that its lower end lies in, plus 1
+ * where more than two cells reach into it; then for each where that cell ends. */
 struct buffon_inverse_table {
     uint64_t magic, bytes;
     uint64_t tail[2], cells, bins; /* numbers of rows: lower and upper tail, centre */
@@ -58,6 +59,10 @@ static inline double inverse_value(double *slope, const inverse_row *row, double
 /* x and the pdf where p is below (or above) x, in the tail. */
 double buffon_priv_inverse_tail(double *pdf, double p, int upper,
                                 const buffon_inverse_table *table);
+
+/* The same for those of u[n] that lie in a tail; others are left alone. */
+void buffon_priv_inverse_tails(double *x, double *pdf, const double *u, size_t n,
+                               const buffon_inverse_table *table);
 
 /* ---- panels: the integral of the pdf ---- */
 

@@ -47,6 +47,17 @@ double buffon_priv_inverse_tail(double *pdf, double p, int upper, const buffon_i
     return x < table->least ? table->least : x > table->most ? table->most : x;
 }
 
+void buffon_priv_inverse_tails(double *x, double *pdf, const double *u, size_t n,
+                               const buffon_inverse_table *table)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (u[i] < table->u_lo)
+            x[i] = buffon_priv_inverse_tail(pdf ? &pdf[i] : NULL, u[i], 0, table);
+        else if (u[i] >= table->u_hi)
+            x[i] = buffon_priv_inverse_tail(pdf ? &pdf[i] : NULL, 1 - u[i], 1, table);
+    }
+}
+
 /* p and the pdf at an x of a tail; both 0 beyond the support. */
 static double inverse_untail(double *pdf, double x, int upper, const buffon_inverse_table *table)
 {
@@ -146,15 +157,7 @@ static void inverse_at(double *lower, double *upper, double *pdf, double x,
 static int inverse_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
     const buffon_inverse_table *table = g->data[0];
-    LEVELS_RUN(inverse_map_centre,
-               (x, pdf, u, n, (const double *)inverse_cells(table), inverse_guide(table),
-                inverse_bits(table->bins), table->u_lo, buffon_priv_nextdown(table->u_hi)));
-    for (size_t i = 0; i < n; i++) {
-        if (u[i] < table->u_lo)
-            x[i] = buffon_priv_inverse_tail(pdf ? &pdf[i] : NULL, u[i], 0, table);
-        else if (u[i] >= table->u_hi)
-            x[i] = buffon_priv_inverse_tail(pdf ? &pdf[i] : NULL, 1 - u[i], 1, table);
-    }
+    LEVELS_RUN(inverse_map_points, (x, pdf, u, n, table, inverse_bits(table->bins)));
     return 0;
 }
 
