@@ -197,7 +197,7 @@ const double qp[] = {2, 1, 0}, qr[] = {0.4, -0.8, -1.6};
 ENTRY("Spherical rectangle", "The directions in which a rectangular lamp is seen.", SPHERE,
       buffon_spherical_rectangle(eye, q, qp, qr));
 
-const double gem[] = {0, -1, 1.2, -0.86, -1, 0.58, -0.53, -1, -0.43, 0.53, -1, -0.43, 0.86, -1, 0.58};
+const double gem[] = {0, -1, 1.2, -0.9, -1, 0.6, -0.5, -1, -0.4, 0.5, -1, -0.4, 0.9, -1, 0.6};
 ENTRY("Spherical polygon", "A fan of triangles about its first corner.", SPHERE,
       buffon_spherical_polygon(eye, gem, 5));
 
