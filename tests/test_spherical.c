@@ -443,7 +443,7 @@ static void polygon(double *corner, size_t count, double size, double lean)
 
 static void test_polygons(void)
 {
-    double corner[48], density = 0, apart = 0, back = 0;
+    double corner[48], density = 0, apart = 0, back = 0, seam = 0;
     int good = 1;
     buffon_rng rng = buffon_rng_make(4, 76);
     for (int k = 0; k < DRAWS / 10; k++) {
@@ -451,7 +451,7 @@ static void test_polygons(void)
         const double from[3] = {2 * buffon_rng_next(&rng) - 1, 2 * buffon_rng_next(&rng) - 1,
                                 1 + buffon_rng_next(&rng)};
         double u[2], v[2], x[3], y[3], pdf, again;
-        wide sum = 0;
+        wide sum = 0, part[16];
         polygon(corner, count, pow(10, -4 * buffon_rng_next(&rng)), 0.25);
         const buffon_density g = buffon_spherical_polygon(from, corner, count);
         for (size_t i = 1; i + 1 < count; i++) {
@@ -461,7 +461,21 @@ static void test_polygons(void)
                 e1[j] = (wide)corner[3 * i + j] - corner[j];
                 e2[j] = (wide)corner[3 * i + 3 + j] - corner[j];
             }
+            part[i] = sum;
             sum += solid_angle(at, e1, e2);
+        }
+        /* At the second triangle's end the direction is in the plane of its last side. */
+        if (count > 4) {
+            wide at[3], side[3], normal[3];
+            const double end[2] = {(double)(part[3] / sum), 0.5};
+            for (size_t j = 0; j < 3; j++) {
+                at[j] = (wide)corner[j] - from[j];
+                side[j] = (wide)corner[9 + j] - corner[j];
+            }
+            cross(normal, at, side);
+            good &= buffon_density_sample(x, NULL, end, 1, &g) == BUFFON_OK;
+            const wide far = x[0] * normal[0] + x[1] * normal[1] + x[2] * normal[2];
+            raise_to(&seam, (double)(fabsl(far) / norm(normal)));
         }
         grid_pair(u, &rng, k);
         good &= buffon_density_sample(x, &pdf, u, 1, &g) == BUFFON_OK;
@@ -485,6 +499,8 @@ static void test_polygons(void)
     tap_ok(good, "polygons: the pdf at a direction is that with it, 0 behind");
     report(apart, 1e-15, "a polygon of three corners against the triangle");
     report(back, 1e-10, "directions led back to uniforms and to directions");
+    if (LDBL_MANT_DIG >= 64)
+        report(seam, 0x1p-49, "the end of the second triangle");
     if (LDBL_MANT_DIG >= 64)
         report(density, 6, "pdf of polygons, in ulp");
     const double from[3] = {0.1, 0.2, 2};
