@@ -373,7 +373,7 @@ static build_place build_find(const inverse_builder *b, double p, int upper)
 /* The straight line that goes on beyond the last panel. */
 static void build_outermost(build_walk *w, const inverse_panel *p)
 {
-    const int side = w->part;
+    const int side = w->part == BUILD_UPPER;
     const double y = build_side(p, side), x = inverse_x(&p->map, y);
     const double by_y = p->map.scale == 0 ? 1 : buffon_priv_abs(x - p->map.origin);
     double slope = w->slope;
@@ -388,7 +388,7 @@ static int build_tail(build_walk *w, build_part part, build_place from)
 {
     inverse_builder *b = w->b;
     const size_t k = part == BUILD_UPPER ? b->count - 1 : 0;
-    const build_place to = {k, build_side(&b->panels[k], part)};
+    const build_place to = {k, build_side(&b->panels[k], part == BUILD_UPPER)};
     const double wanted = 1 / BUILD_TAIL * b->u_error;
     inverse_row *first = w->row;
     w->part = part;
@@ -553,7 +553,7 @@ static buffon_status build_in(void *memory, size_t bytes, inverse_builder *b)
 {
     char *const end = (char *)memory + bytes / sizeof(inverse_row) * sizeof(inverse_row);
     b->panels = memory;
-    b->room = bytes / sizeof *b->panels;
+    b->room = (size_t)(end - (char *)memory) / sizeof *b->panels;
     if (bytes < 4096)
         return (void)buffon_priv_inverse_refuse(b, BUFFON_E_NOMEM, "the memory is too small",
                                                 (double)NAN),

@@ -320,6 +320,15 @@ static void test_refusals(void)
     refuse((buffon_inverse_law){.pdf = slow}, BUFFON_E_PDF, "1 / (1 + |x|)");
     refuse((buffon_inverse_law){.pdf = constant}, BUFFON_E_PDF, "a constant on the line");
     refuse((buffon_inverse_law){.pdf = nought, .hi = 1}, BUFFON_E_PDF, "a pdf that is nought");
+    buffon_inverse_report r;
+    buffon_inverse_table *table;
+    const buffon_inverse_law below = {.pdf = negative, .hi = 1};
+    const buffon_inverse_law heavy = {.pdf = hyperbola, .lo = 1, .hi = INFINITY};
+    tap_ok(buffon_inverse_table_new(&table, &r, &below) < 0 && negative(r.where, NULL) < 0 &&
+               strstr(r.why, "negative") != NULL,
+           "the place is told: %g, %s", r.where, r.why);
+    tap_ok(buffon_inverse_table_new(&table, &r, &heavy) < 0 && r.where > DBL_MAX,
+           "the place is told: %g, %s", r.where, r.why);
     tap_ok(buffon_inverse_table_new(NULL, NULL, NULL) == BUFFON_E_NULL, "no place for the table");
     refused_by_value(buffon_inverse_table_density(NULL), BUFFON_E_NULL, "no table");
     const double words[64] = {0};
