@@ -19,7 +19,7 @@
 #define BUILD_TAIL 0x1p-10                 /* p at which the tails begin */
 #define BUILD_MARGIN 0.7                   /* of the error allowed that is aimed at */
 #define BUILD_TRIES 1000000                /* of rows are enough */
-#define BUILD_LEAST ((size_t)1 << 17)      /* bytes of workspace to begin with */
+#define BUILD_LEAST ((size_t)1 << 19)      /* bytes of workspace to begin with */
 #define BUILD_MOST ((size_t)1 << 25)
 
 typedef enum build_part { BUILD_LOWER, BUILD_UPPER, BUILD_CENTRE } build_part;

@@ -111,6 +111,10 @@ ROOM(world, buffon_environment_size(64, 32));
 ENTRY("Environment", "A sky in longitude and latitude: a sun, a bright horizon, dark ground.",
       SKY, buffon_environment(world, world_size, sky, 64, 32));
 
+ROOM(lamp_table, 1 << 17);
+ENTRY("Any pdf", "A formula, unnormalised: a slope from a pole, and two lines. Tabulated.",
+      LINE(0, 3), gallery_tabulated(lamp_table, lamp_table_size));
+
 /* ---- whole numbers ---- */
 GROUP("Whole numbers", "Bars are the share of points, dots the probabilities.");
 

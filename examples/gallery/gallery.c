@@ -141,6 +141,24 @@ static void *gallery_room(gallery *page, size_t bytes)
     return page->room[page->rooms++] = need_memory(bytes);
 }
 
+/* A spectrum that has no name, and its table. */
+static double gallery_spectrum(double e, void *ctx)
+{
+    const double line1 = (e - 1.2) / 0.03, line2 = (e - 2) / 0.05;
+    (void)ctx;
+    return exp(-e) / sqrt(e) + exp(-0.5 * line1 * line1) + 0.7 * exp(-0.5 * line2 * line2);
+}
+
+static buffon_density gallery_tabulated(void *memory, size_t bytes)
+{
+    const double lines[2] = {1.2, 2};
+    const buffon_inverse_law law = {.pdf = gallery_spectrum, .hi = INFINITY, .breaks = lines,
+                                    .breaks_count = 2};
+    if (buffon_inverse_table_build(memory, bytes, NULL, &law) < 0)
+        give_up("gallery", "no table");
+    return buffon_inverse_table_density(memory);
+}
+
 #define ROOM(name, bytes)           \
     const size_t name##_size = bytes; \
     void *const name = gallery_room(page, name##_size)

@@ -88,7 +88,7 @@ typedef struct buffon_inverse_table buffon_inverse_table;
  *  Exact:   u_error as measured against the CDF itself: 1e-12 asked for and reached for the 40 laws
  *           of tests/laws40.h (tests/test_inverse_table.c)
  *  Repeat:  the same bits wherever pdf gives the same
- *  Cost:    3000 to 10000 calls of pdf for smooth laws, most of them for tails down to 1e-300
+ *  Cost:    500 to 10000 calls of pdf for smooth laws, most of them for tails down to 1e-300
  *  Source:  G. Derflinger, W. Hoermann, J. Leydold (2010), Random variate generation by numerical
  *           inversion when only the density is known; S. Olver, A. Townsend (2013), Fast inverse
  *           transform sampling in one and two dimensions
@@ -101,7 +101,7 @@ BUFFON_API BUFFON_CHECK buffon_status buffon_inverse_table_new(buffon_inverse_ta
 /** Makes a table in the caller's memory, and allocates nothing.
  *
  *  Out:     memory  aligned as malloc does; the table begins there and takes report->bytes. The
- *                   rest is workspace: 128 KiB do for smooth laws
+ *                   rest is workspace: 256 KiB do for smooth laws
  *           report  may be NULL
  *  In:      bytes   of memory
  *           law
