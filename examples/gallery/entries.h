@@ -137,6 +137,16 @@ ENTRY("Disk", "Polar coordinates: the radius is the square root of a uniform.",
 ENTRY("Disk, concentric", "Squares become circles; neighbours stay neighbours.",
       PLANE(-1.1, 1.1, -1.1, 1.1), buffon_disk_concentric(1));
 
+ENTRY("Circle", "The edge alone, by its length.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_circle(1));
+
+ENTRY("Annulus", "A ring, however thin: its area is a product, not a difference.",
+      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_annulus(0.6, 1));
+
+ENTRY("Sector", "Part of a ring, between two angles.", PLANE(-1.1, 1.1, -1.1, 1.1),
+      buffon_disk_sector(0.3, 1, -0.5, 2.2));
+
+ENTRY("Ellipse", "The concentric disk, drawn out.", PLANE(-1.1, 1.1, -1.1, 1.1),
+      buffon_ellipse(1, 0.6));
 ENTRY("Circle", "Its points by length.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_circle(1));
 
 ENTRY("Ring", "However thin, it keeps its digits.", PLANE(-1.1, 1.1, -1.1, 1.1),
@@ -148,6 +158,14 @@ ENTRY("Sector", "Between two circles and two angles.", PLANE(-1.1, 1.1, -1.1, 1.
 ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellipse(1, 0.5));
 
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
+ENTRY("Triangle in the plane", "A root and a straight line; all meets in one corner.",
+      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_triangle_flat(west, east, north));
+ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
+      buffon_bilinear(1, 4, 3, 0));
+
+const double pixels[] = {1, 0, 3, 1, 2, 1, 0, 2, 6, 3, 2, 0, 1, 2, 1, 0};
+ENTRY("Grid", "An image: cells, each of its own height.", FIELD(-0.1, 1.1, -0.1, 1.1),
+      buffon_piecewise_grid(room[3], sizeof room[3], pixels, 4, 4));
 ENTRY("Triangle in the plane", "Three corners, every point alike.", PLANE(-1.1, 1.1, -1.1, 1.1),
       buffon_triangle_flat(west, east, north));
 
@@ -167,6 +185,21 @@ ENTRY("Power of the cosine", "A glossy surface: the higher the power, the narrow
 ENTRY("Cap", "A lamp that is a sphere, the sun, a cone of directions.", SPHERE,
       buffon_cap_about(0.8, lamp));
 
+ENTRY("Zone", "Between two planes, or two angles from an axis.", SPHERE,
+      buffon_zone(0.1, 0.5, lamp));
+
+ENTRY("All but a cap", "The sphere, with the smallest hole kept out.", SPHERE,
+      buffon_cap_complement_angle(0.7, lamp));
+
+ENTRY("Power of the cosine", "A spot of light, from a wide one to a beam.", SPHERE,
+      buffon_hemisphere_power(20));
+
+const double up[] = {0, 0, 1}, setting[] = {3, -2, 0.3};
+ENTRY("Cosine cap", "A cap as a surface sees it: what grazes counts less.", SPHERE,
+      buffon_cap_cosine(0.7, lamp, up));
+
+ENTRY("Cosine cap, setting", "The horizon cuts it: nothing below, little above.", SPHERE,
+      buffon_cap_cosine(0.6, setting, up));
 ENTRY("Zone", "Between two parallels.", SPHERE, buffon_zone(-0.25, 0.5, up));
 
 ENTRY("All but a cap", "What a lamp leaves.", SPHERE, buffon_cap_complement_angle(0.9, lamp));
@@ -177,6 +210,14 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
 
+const double eye[] = {0, 0, 0}, near[] = {1, -1, -0.3}, side[] = {1.2, 0.9, 0.2};
+const double top[] = {0.2, 0.3, 1.5}, frame[] = {0.9, -1, -0.4}, along[] = {0, 2.2, 0};
+const double upward[] = {0, 0, 1.3};
+ENTRY("Triangle seen from a point", "A lamp of three corners, even to the eye.", SPHERE,
+      buffon_spherical_triangle(eye, near, side, top));
+
+ENTRY("Rectangle seen from a point", "A window: strips of even solid angle.", SPHERE,
+      buffon_spherical_rectangle(eye, frame, along, upward));
 const double low_lamp[] = {3, -2.5, 0.8};
 ENTRY("Cosine cap", "What a lamp near the horizon gives a surface: its cosine, nothing below.",
       SPHERE, buffon_cap_cosine(0.8, low_lamp, up));
