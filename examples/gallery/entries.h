@@ -129,7 +129,8 @@ ENTRY("Binomial", "How many of n are yes.", BARS(0, 20), buffon_binomial(20, 0.4
 
 ENTRY("Geometric", "How many noes before the first yes.", BARS(0, 16), buffon_geometric(0.25));
 
-ENTRY("Poisson", "Counts of rare things: clicks, calls, photons.", BARS(0, 14), buffon_poisson(4.5));
+ENTRY("Poisson", "Counts of rare things: clicks, calls, photons.", BARS(0, 14),
+      buffon_poisson(4.5));
 
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
@@ -261,5 +262,5 @@ const buffon_density upright = buffon_hemisphere_power(30);
 ENTRY("Turned", "Any density in space about another axis.", SPHERE,
       buffon_turned_to(&upright, lamp));
 
-ENTRY("Product of disk and segment", "A solid cylinder.", SPACE(0, 0, 0, 1.05),
+ENTRY("Solid product", "A disk times a segment is a solid cylinder.", SPACE(0, 0, 0, 1.05),
       buffon_density_product(round, 2));
