@@ -303,6 +303,35 @@ double buffon_cap_irradiance(double half_angle, const double axis[3], const doub
     return param[CAP_COSINE_TOTAL];
 }
 
+/* The half angle at which a sphere is seen, and the axis; NaN where it is not. The sine is radius
+ * over distance, and the cosine the root of a product in which only distance - radius cancels. */
+static double cap_cosine_seen(double axis[3], const double from[3], const double centre[3],
+                              double radius)
+{
+    const double most = 0x1p1000;
+    int valid = radius > 0 && radius <= most;
+    double unit[3];
+    for (size_t j = 0; j < 3; j++) {
+        valid &= buffon_priv_abs(from[j]) <= most && buffon_priv_abs(centre[j]) <= most;
+        axis[j] = centre[j] - from[j];
+    }
+    const double d = frame_unit(unit, axis);
+    if (!(valid && d > radius))
+        return (double)NAN;
+    const double cosine = sqrt((d - radius) / d * ((d + radius) / d));
+    return CAP_COSINE_PI * buffon_priv_atan2pi(radius / d, cosine);
+}
+
+double buffon_cap_irradiance_of_sphere(const double from[3], const double centre[3], double radius,
+                                       const double normal[3])
+{
+    double axis[3];
+    if (!from || !centre)
+        return (double)NAN;
+    const double half_angle = cap_cosine_seen(axis, from, centre, radius);
+    return buffon_cap_irradiance(half_angle, axis, normal);
+}
+
 /* ---- the density -------------------------------------------------------------------------- */
 
 /* u1 is the place across, both sides of y = 0 alike; u2 goes along the chord, from the horizon. The
@@ -438,4 +467,14 @@ buffon_density buffon_cap_cosine(double half_angle, const double axis[3], const 
     g = (buffon_density){.uniforms = 2, .dim = 3, .ops = &cap_cosine_ops};
     g.status = status == BUFFON_OK ? BUFFON_E_SHAPE : status;
     return g;
+}
+
+buffon_density buffon_cap_cosine_of_sphere(const double from[3], const double centre[3],
+                                           double radius, const double normal[3])
+{
+    double axis[3];
+    if (!from || !centre)
+        return buffon_cap_cosine(1, NULL, normal);
+    const double half_angle = cap_cosine_seen(axis, from, centre, radius);
+    return buffon_cap_cosine(half_angle, axis, normal);
 }

@@ -309,6 +309,55 @@ static void test_known(void)
            "g above the horizon and on the cap only");
 }
 
+/* A sphere of sine s = radius / distance above the horizon: pi s^2 sin b. */
+static void test_spheres(void)
+{
+    const double here[3] = {1, 2, 3}, up[3] = {0, 0, 1}, far[3] = {0, INFINITY, 0};
+    worst whole = {0}, set = {0};
+    buffon_rng rng = buffon_rng_make(3, 41);
+    for (int k = 0; k < 2000; k++) {
+        double from[3], centre[3];
+        wide square = 0;
+        for (int j = 0; j < 3; j++) {
+            from[j] = k % 2 ? 0 : buffon_rng_next(&rng);
+            centre[j] = from[j] + (j < 2 ? 2 * buffon_rng_next(&rng) - 1 : 1);
+            square += ((wide)centre[j] - from[j]) * ((wide)centre[j] - from[j]);
+        }
+        const wide d = sqrtl(square), sine = ((wide)centre[2] - from[2]) / d;
+        const double radius =
+            (double)d * sinh(1) * 0.77 * ldexp(buffon_rng_next(&rng), k % 3 ? 0 : -(k % 100));
+        const double got = buffon_cap_irradiance_of_sphere(from, centre, radius, up);
+        const wide angle = asinl(radius / d), b = asinl(sine);
+        if (angle <= b)
+            see_error(&whole,
+                      fabsl(got / (WIDE_PI * radius * radius / square * sine) - 1) * 0x1p52L);
+        else
+            see_error(&set, fabsl(got / irradiance(angle, b) - 1) * 0x1p52L);
+    }
+    report(&whole, 16, "irradiance of a sphere above the horizon, in 2^-52 of itself");
+    report(&set, 16, "irradiance of a sphere across the horizon, in 2^-52 of itself");
+    const double centre[3] = {1, 2, 5};
+    const buffon_density g = buffon_cap_cosine_of_sphere(here, centre, 1, up);
+    double x[3] = {0, 0, 1}, pdf = 0;
+    tap_ok(buffon_density_pdf(&pdf, x, 1, &g) == BUFFON_OK &&
+               fabs(pdf * 0.7853981633974483 - 1) < 1e-15,
+           "a sphere of half the distance in the zenith: g = 4 / pi there");
+    refused_by_value(buffon_cap_cosine_of_sphere(NULL, here, 1, up), BUFFON_E_NULL, "from nowhere");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, NULL, 1, up), BUFFON_E_NULL, "no centre");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, 1, NULL), BUFFON_E_NULL,
+                     "no normal");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, 2, up), BUFFON_E_SHAPE,
+                     "from on it");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, 0, up), BUFFON_E_SHAPE, "radius 0");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, NAN, up), BUFFON_E_SHAPE, "NaN");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, far, 1, up), BUFFON_E_SHAPE, "far off");
+    refused_by_value(buffon_cap_cosine_of_sphere(centre, here, 1, up), BUFFON_E_SHAPE, "below");
+    tap_ok(buffon_cap_irradiance_of_sphere(centre, here, 1, up) == 0 &&
+               isnan(buffon_cap_irradiance_of_sphere(here, here, 1, up)) &&
+               isnan(buffon_cap_irradiance_of_sphere(NULL, here, 1, up)),
+           "the irradiance of a sphere below is 0, of one around NaN");
+}
+
 static void test_refusals(void)
 {
     const double up[3] = {0, 0, 1}, zero[3] = {0}, inf[3] = {1, INFINITY, 0}, down[3] = {0, 0, -1};
@@ -335,6 +384,7 @@ int main(void)
     if (have_wide()) {
         test_irradiance();
         test_points();
+        test_spheres();
     }
     test_known();
     test_refusals();
