@@ -166,7 +166,7 @@ static void test_irradiance(void)
             see_error(&turned, fabsl(again / other - 1) * 0x1p52L / (1 + 1 / (b + e.angle)));
     }
     report(&above, 8, "irradiance of a cap above the horizon, in 2^-52 of itself");
-    report(&cut, 6, "irradiance of a cap across the horizon, in 2^-52 (1 + t / (b + t))");
+    report(&cut, 8, "irradiance of a cap across the horizon, in 2^-52 (1 + t / (b + t))");
     report(&turned, 16, "irradiance about any axis, in 2^-52 (1 + 1 / (b + t))");
 }
 
@@ -216,7 +216,7 @@ static void see_cut(worst *w, worst *tail, worst *along, const example *e, const
     const wide share = fminl(u[0], 1 - (wide)u[0]), known = 1 + e->angle / (b + e->angle);
     wide first, last;
     see_error(w, fabsl(0.5L * beyond / total - share) * 0x1p52L / known);
-    if (touch < 1 && b < 0)
+    if (touch < 0.5L && b < 0)
         see_error(tail,
                   fabsl(0.5L * beyond / total - share) / powl(share, 2.0L / 3) * 0x1p52L / known);
     if (share < 1e-3L)
@@ -276,7 +276,7 @@ static void test_points(void)
     tap_ok(there, "points lie on their caps and above the horizon");
     report(&length, 1, "|x|^2 within 2^-48 of 1, in that");
     report(&whole, 16, "points of a cap above the horizon, in 2^-52 of its size");
-    report(&across, 2, "points across the horizon: share of u1, in 2^-52 (1 + t / (b + t))");
+    report(&across, 4, "points across the horizon: share of u1, in 2^-52 (1 + t / (b + t))");
     report(&tail, 4, "thin crescents: share q of the smaller side, in 2^-52 q^(2/3) (1 + ...)");
     report(&along, 16, "points across the horizon: share of u2, in 2^-52 (1 + t / (b + t))");
     report(&drawn, 16, "cosine at the point, in 2^-52 of the highest");
