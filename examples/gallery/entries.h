@@ -177,10 +177,6 @@ ENTRY("Cap", "A lamp that is a sphere, the sun, a cone of directions.", SPHERE,
 
 ENTRY("Zone", "Between two parallels.", SPHERE, buffon_zone(-0.25, 0.5, up));
 
-const double setting[] = {3, -2, 0.3};
-ENTRY("Cosine cap, setting", "A sun on the horizon, as a surface sees it.",
-      SPHERE, buffon_cap_cosine(0.6, setting, up));
-
 ENTRY("All but a cap", "What a lamp leaves.", SPHERE, buffon_cap_complement_angle(0.9, lamp));
 
 ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.", SPHERE,
