@@ -282,6 +282,34 @@ static void test_points(void)
     report(&drawn, 16, "cosine at the point, in 2^-52 of the highest");
 }
 
+/* About a surface that looks up the cosine is z, to the last digits however low. */
+static void test_level(void)
+{
+    worst cosine = {0}, given = {0}, back = {0};
+    buffon_rng rng = buffon_rng_make(4, 41);
+    for (int k = 0; k < 3000; k++) {
+        const example e = any_example(&rng, k);
+        const buffon_density g = buffon_cap_cosine(e.angle, e.normal, e.axis);
+        const double total = buffon_cap_irradiance(e.angle, e.normal, e.axis);
+        double u[2], x[3] = {0}, pdf = NAN, again = NAN, v[2] = {0};
+        grid_pair(u, &rng, k);
+        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK ||
+            buffon_density_pdf(&again, x, 1, &g) != BUFFON_OK ||
+            buffon_density_invert(v, x, 1, &g) != BUFFON_OK)
+            cosine.most = INFINITY;
+        see_error(&cosine, fabsl((wide)pdf * total / x[2] - 1) * 0x1p52L);
+        if (e.angle < 1e-3)
+            continue; /* the doubles near the axis are 2^-53 apart, and so are their uniforms */
+        see_error(&given, fabs(again / pdf - 1) * 0x1p52);
+        if (e.height > -0.9 * e.angle && fmin(u[0], 1 - u[0]) > 1e-3 && fmin(u[1], 1 - u[1]) > 1e-3)
+            see_error(&back,
+                      fmax(fabs(v[0] - u[0]), fabs(v[1] - u[1])) * e.angle * e.angle * 0x1p52);
+    }
+    report(&cosine, 4, "about a surface that looks up: g along with the point is z, in 2^-52");
+    report(&given, 4, "and so is g at the point");
+    report(&back, 128, "u of the point, in 2^-52 over the square of the angle");
+}
+
 /* ---- known values ------------------------------------------------------------------------- */
 
 static int is(double got, double wanted)
@@ -385,6 +413,7 @@ int main(void)
         test_irradiance();
         test_points();
         test_spheres();
+        test_level();
     }
     test_known();
     test_refusals();

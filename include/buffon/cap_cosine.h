@@ -45,7 +45,8 @@ BUFFON_API double buffon_cap_irradiance(double half_angle, const double axis[3],
  *  Exact:   |x| within 2^-49 of 1. About +z: points of a cap above the horizon within 2^-48 of its
  *           size; across the horizon the areas that u1 and u2 divide are met within 2^-48 and 2^-46
  *           of themselves, times 1 + t / (b + t); the cosine at the point within 2^-48 of the
- *           highest. So g at a point that is nearer than rounding to the horizon may be 0
+ *           highest, so g at a point that is nearer than rounding to the horizon may be 0. Where
+ *           the normal is a coordinate axis the cosine has all its digits, however low
  *           (tests/test_cap_cosine.c)
  *  Cost:    where the horizon cuts the cap, an equation is solved for each point: about a
  *           microsecond, a hundred times as long
