@@ -5,6 +5,7 @@
  *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
  *     layer 2  inversion  exponential  normal
  *     layer 2  laws
+ *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -13,6 +14,7 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "affine.h"
 #include "api.h"
 #include "box.h"
 #include "cap.h"
@@ -30,6 +32,7 @@
 #include "inversion.h"
 #include "laws.h"
 #include "math.h"
+#include "mixture.h"
 #include "normal.h"
 #include "partial.h"
 #include "points.h"
@@ -41,6 +44,7 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
+#include "truncated.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
