@@ -6,7 +6,8 @@
  * A density is a buffon_density and the table of functions it points at: `sample` draws points and
  * says what g is there, `pdf` says it of any point. Batches are coordinate-major. Parameters live
  * in `param`, by which partial results of different densities are told apart. Every estimator and
- * point set then works with it.
+ * point set then works with it. buffon_verify_density tells whether it does what it says: here is
+ * one with a mistake that is easily made, r = sigma u1.
  *
  * Here int x^2 exp(-x^2 - y^2) over the plane, exactly pi / 2. */
 #include <math.h>
@@ -32,6 +33,25 @@ static int normal_sample(double *x, double *pdf, const double *u, size_t n, cons
         x[n + i] = r * sin(angle);
     }
     return pdf != NULL ? normal_pdf(pdf, x, n, g) : 0;
+}
+
+/* As it is in many a first draft. */
+static int mistaken_sample(double *x, double *pdf, const double *u, size_t n,
+                           const buffon_density *g)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double r = g->param[0] * u[i], angle = 2 * pi * u[n + i];
+        x[i] = r * cos(angle);
+        x[n + i] = r * sin(angle);
+    }
+    return pdf != NULL ? normal_pdf(pdf, x, n, g) : 0;
+}
+
+static void verify(const char *name, const buffon_density *g)
+{
+    buffon_verify_report r;
+    const buffon_status s = buffon_verify_density(&r, g, NULL);
+    printf("%s: %s; %s\n", name, buffon_status_string(s), buffon_verify_string(r.check));
 }
 
 /* The constructor. What is senseless is refused where the density is used. */
@@ -69,6 +89,11 @@ int main(void)
         printf("%-8s  %.6f +- %.6f, 95 %% in [%.6f, %.6f], exactly %.6f\n", names[k], e.value,
                e.std_error, e.lo, e.hi, pi / 2);
     }
+    static const buffon_density_ops ops = {.sample = mistaken_sample, .pdf = normal_pdf};
+    buffon_density mistaken = g;
+    mistaken.ops = &ops;
+    verify("with r = sigma sqrt(-2 log u1)", &g);
+    verify("with r = sigma u1", &mistaken);
     const buffon_density bad = normal(-1);
     printf("sigma = -1: %s\n", buffon_status_string(buffon_density_check(&bad)));
     return 0;

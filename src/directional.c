@@ -45,13 +45,13 @@ static buffon_density directional_make(const buffon_density_ops *ops, int valid,
     return g;
 }
 
-/* The second uniform of a point, and the first from u or 1 - u, whichever is less than 1/2. */
-static void directional_open(double *u, size_t n, double first, double rest,
-                             const buffon_density *g, const double x[3])
+/* The uniforms of a point: the first, and the turn about the axis. */
+static void directional_open(double *u, size_t n, double first, const buffon_density *g,
+                             const double x[3])
 {
     double across[2];
     frame_across(across, g->param, x[0], x[1], x[2]);
-    u[0] = density_open(first < 0.5 ? first : 1 - rest);
+    u[0] = density_open(first);
     u[n] = buffon_priv_circle_invert(across[0], across[1]);
 }
 
@@ -85,7 +85,7 @@ static int scatter_pdf(double *pdf, const double *x, size_t n, const buffon_dens
 }
 
 /* With s the root of 1 + g^2 - 2 g cos, D = a b / s, and u1 = (b - D) / (2 g): the division by g
- * cancels in b w / (s (s + a)), and for 1 - u1 in a (2 - w) / (s (s + b)). */
+ * cancels in b w / (s (s + a)). */
 static int scatter_invert(double *u, const double *x, size_t n, const buffon_density *g)
 {
     const double a = g->param[SCATTER_BACK], b = g->param[SCATTER_FRONT];
@@ -94,7 +94,7 @@ static int scatter_invert(double *u, const double *x, size_t n, const buffon_den
         double near, far;
         directional_chords(&near, &far, g->param + 6, point[0], point[1], point[2]);
         const double s = sqrt(scatter_square(near, far, g->param));
-        directional_open(u + i, n, b * near / (s * (s + a)), a * far / (s * (s + b)), g, point);
+        directional_open(u + i, n, b * near / (s * (s + a)), g, point);
     }
     return 0;
 }
@@ -156,7 +156,7 @@ static int fisher_log_pdf(double *log_pdf, const double *x, size_t n, const buff
     return 0;
 }
 
-/* u1 = expm1(-kappa w) / expm1(-2 kappa), and 1 - u1 is exp(-kappa w) times the same of 2 - w. */
+/* u1 = expm1(-kappa w) / expm1(-2 kappa). */
 static int fisher_invert(double *u, const double *x, size_t n, const buffon_density *g)
 {
     const double kappa = g->param[FISHER_KAPPA], front = g->param[FISHER_FRONT];
@@ -164,12 +164,8 @@ static int fisher_invert(double *u, const double *x, size_t n, const buffon_dens
         const double point[3] = {x[i], x[n + i], x[2 * n + i]};
         double near, far;
         directional_chords(&near, &far, g->param + 6, point[0], point[1], point[2]);
-        double first = 0.5 * near, rest = 0.5 * far;
-        if (kappa > 0) {
-            first = buffon_priv_expm1(-kappa * near) / front;
-            rest = buffon_priv_exp(-kappa * near) * (buffon_priv_expm1(-kappa * far) / front);
-        }
-        directional_open(u + i, n, first, rest, g, point);
+        const double first = kappa > 0 ? buffon_priv_expm1(-kappa * near) / front : 0.5 * near;
+        directional_open(u + i, n, first, g, point);
     }
     return 0;
 }

@@ -43,18 +43,13 @@ static void LANES(scatter_map)(double *const row[4], const double *u1, const dou
 }
 
 /* log(1 + t) where 1 + t >= 1/2, and log(y) where it is less: there y, which is the same number,
- * is known better than t. As log1p of lanes_math.h. */
+ * is known better than t. About 1 the sum 1 + t is not used at all, see log1p of lanes_math.h. */
 LANES_INLINE lanes_d LANES(fisher_log)(lanes_d t, lanes_d y)
 {
     const lanes_d one = 1.0 + t, zero = lanes_all(0);
-    const lanes_d lost =
-        lanes_pick(lanes_less(lanes_all(1), t), 1.0 - (one - t), t - (one - 1.0)) / one;
-    const lanes_m near = lanes_less_equal(lanes_all(0.5), one);
-    lanes_d m;
-    const lanes_d k = LANES(log_split)(&m, lanes_pick(near, one, y));
-    const lanes_m middle = lanes_equal(k, zero);
-    const lanes_d c = lanes_pick(near, lost, zero);
-    return LANES(log_core)(k, lanes_pick(middle, t, m - 1.0), lanes_pick(middle, zero, c));
+    lanes_d m, k;
+    k = LANES(log_split)(&m, lanes_pick(lanes_less_equal(lanes_all(0.5), one), one, y));
+    return LANES(log_core)(k, lanes_pick(lanes_equal(k, zero), t, m - 1.0), zero);
 }
 
 LANES_INLINE void LANES(fisher_points)(double *const row[4], const double *u1, const double *u2,

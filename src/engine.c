@@ -130,6 +130,7 @@ static buffon_status engine_make(engine *e, const buffon_priv_problem *problem,
         return status;
     buffon_priv_plan_extend(e->record, &e->plan); /* from here on nothing is refused */
     if (fresh && e->plan.run.partial != NULL) {
+        buffon_priv_record_free(buffon_priv_partial_record(e->plan.run.partial));
         e->plan.run.partial->more = e->record;
         e->own_record = 0;
     }

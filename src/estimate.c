@@ -26,8 +26,7 @@ static double estimate_share(const buffon_priv_record *record, size_t output)
         const size_t variant = buffon_priv_spread_variant(record, s);
         buffon_priv_wide mean = buffon_priv_wide_of(0), high, low, n2;
         buffon_stats pool;
-        buffon_priv_spread_pool(&pool, record, s, 0, (size_t)record->shape.replicates,
-                                variant * (size_t)record->shape.outputs + output);
+        buffon_priv_spread_pool(&pool, record, s, variant * (size_t)record->shape.outputs + output);
         if (pool.count < 2)
             return NAN;
         if (variant != 2)
@@ -60,7 +59,7 @@ static void estimate_extremes(buffon_estimate *out, const buffon_priv_record *re
     out->min = out->max = out->tail_index = NAN;
     for (size_t s = 0; s < record->shape.strata; s++) {
         buffon_stats pool;
-        buffon_priv_spread_pool(&pool, record, s, 0, (size_t)record->shape.replicates, output);
+        buffon_priv_spread_pool(&pool, record, s, output);
         out->nonfinite += pool.nonfinite;
         if (pool.count == 0)
             continue;
@@ -83,8 +82,7 @@ static void estimate_extremes(buffon_estimate *out, const buffon_priv_record *re
 static void estimate_weights(buffon_estimate *out, const buffon_priv_record *record)
 {
     buffon_stats pool;
-    buffon_priv_spread_pool(&pool, record, 0, 0, (size_t)record->shape.replicates,
-                            (size_t)record->shape.components);
+    buffon_priv_spread_pool(&pool, record, 0, (size_t)record->shape.components);
     const buffon_priv_wide top = buffon_priv_wide_of(pool.top[0]);
     const buffon_priv_wide sum = buffon_priv_wide_mul(buffon_priv_stats_mean_square(&pool),
                                                       buffon_priv_wide_count(pool.count));
@@ -128,8 +126,8 @@ static void estimate_interval(buffon_estimate *out, const buffon_priv_record *re
         out->interval = BUFFON_INTERVAL_EXACT;
     } else if (out->std_error > 0 && out->std_error < INFINITY && dof > 0 &&
                out->value - out->value == 0) {
-        const double half = buffon_priv_student_two_sided(alpha, dof) * out->std_error +
-                            estimate_rounding(out);
+        const double half =
+            buffon_priv_student_two_sided(alpha, dof) * out->std_error + estimate_rounding(out);
         out->lo = out->value - half;
         out->hi = out->value + half;
         out->interval = BUFFON_INTERVAL_STUDENT;
@@ -189,7 +187,7 @@ static double estimate_variance(const buffon_priv_record *record, size_t k, buff
         return buffon_priv_wide_to_double(buffon_priv_wide_mul(square, buffon_priv_wide_count(n)));
     const buffon_priv_wide factor = buffon_priv_spread_factor(record, 0);
     buffon_stats pool;
-    buffon_priv_spread_pool(&pool, record, 0, 0, (size_t)record->shape.replicates, k);
+    buffon_priv_spread_pool(&pool, record, 0, k);
     return buffon_priv_wide_to_double(buffon_priv_wide_mul(buffon_priv_stats_variance(&pool),
                                                            buffon_priv_wide_mul(factor, factor)));
 }
@@ -258,7 +256,7 @@ buffon_status buffon_stats_estimate(buffon_estimate *out, const buffon_stats *s,
     buffon_priv_record record = {.shape = {.components = 1,
                                            .outputs = 1,
                                            .strata = 1,
-                                           .replicates = 1,
+                                           .per_stratum = 1,
                                            .block = 1024,
                                            .round = 1,
                                            .parts = 1,

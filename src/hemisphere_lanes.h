@@ -1,4 +1,4 @@
-/* Private. The kernel of hemisphere.c: included by levels.h. */
+/* Private. The kernels of hemisphere.c: included by levels.h. */
 
 /* The radius on the disk below is |2 v - 1|, v the uniform further from 1/2. So the height is
  * sqrt(1 - (2 v - 1)^2) = 2 sqrt(v (1 - v)), which neither cancels nor vanishes. Row 3 of the
@@ -27,4 +27,66 @@ static void LANES(hemisphere_map)(double *const row[4], const double *u1, const 
         LANES(hemisphere_points)(row, u1, u2, n, NULL);
     else
         LANES(hemisphere_points)(row, u1, u2, n, param);
+}
+
+/* The first 26 bits of x: a product of two such parts is exact. */
+LANES_INLINE lanes_d LANES(hemisphere_top)(lanes_d x)
+{
+    return lanes_double(lanes_bits(x) & ~UINT64_C(0x7ffffff));
+}
+
+/* c = (1 - u)^share, 1 - c with its own digits, share = 1 / (n + 1) in two parts. Near the horizon
+ * the power would multiply the rounding of a logarithm by its size, 37, so logarithm and product
+ * are carried in two parts, as sums a + low. */
+LANES_INLINE lanes_d LANES(hemisphere_root)(lanes_d *less, lanes_d u, double share,
+                                            double share_low)
+{
+    lanes_d m, r;
+    lanes_u e;
+    const lanes_d k = LANES(log_split)(&m, 1.0 - u);
+    const lanes_d f = lanes_pick(lanes_equal(k, lanes_all(0)), -u, m - 1.0);
+    const lanes_d half = 0.5 * f * f, s = f / (2.0 + f);
+    const lanes_d y = (half - (s * (half + LANES(log_rest)(s)) + k * LANES_LN2_LO)) - f;
+    const lanes_d big = k * LANES_LN2_HI, a = big - y, low = (big - a) - y;
+    const lanes_d top = LANES(hemisphere_top)(a), tail = a - top, power = a * share;
+    const double first = buffon_priv_from_bits(buffon_priv_bits(share) & ~UINT64_C(0x7ffffff));
+    const double second = share - first;
+    const lanes_d lost = ((top * first - power) + top * second + tail * first) + tail * second;
+    const lanes_d rest = LANES(exp_core)(&r, &e, power, lost + (a * share_low + low * share));
+    const lanes_d scale = LANES(power2)(e), begin = 1.0 - LANES(power2)(0 - e);
+    const lanes_d sum = begin + r;
+    *less = -(sum + ((r - (sum - begin)) + rest)) * scale;
+    return (1.0 + (r + rest)) * scale;
+}
+
+/* Depth u below the pole: cos = (1 - u)^(1 / (n + 1)), and sin^2 = (1 - cos) (1 + cos). The pdf is
+ * (n + 1) / (2 pi) cos^n, and cos^n = (1 - u) / cos. */
+LANES_INLINE void LANES(hemisphere_powers)(double *const row[4], const double *u1, const double *u2,
+                                           size_t n, const double *param, int turned)
+{
+    const double share = param[POWER_SHARE], share_low = param[POWER_SHARE_LOW];
+    for (size_t i = 0; i < n; i += LANES_WIDTH) {
+        const lanes_d u = lanes_load(u1 + i, n - i);
+        lanes_d less, a, b, c = LANES(hemisphere_root)(&less, u, share, share_low);
+        const lanes_d s = lanes_sqrt(less * (1.0 + c));
+        if (row[3] != NULL)
+            lanes_store(row[3] + i, param[POWER_SCALE] * ((1.0 - u) / c), n - i);
+        LANES(circle)(&a, &b, lanes_load(u2 + i, n - i));
+        a *= s;
+        b *= s;
+        if (turned)
+            LANES(turn)(&a, &b, &c, param);
+        lanes_store(row[0] + i, a, n - i);
+        lanes_store(row[1] + i, b, n - i);
+        lanes_store(row[2] + i, c, n - i);
+    }
+}
+
+static void LANES(hemisphere_power_map)(double *const row[4], const double *u1, const double *u2,
+                                        size_t n, const double *param)
+{
+    if (frame_is_upright(param))
+        LANES(hemisphere_powers)(row, u1, u2, n, param, 0);
+    else
+        LANES(hemisphere_powers)(row, u1, u2, n, param, 1);
 }

@@ -35,7 +35,7 @@ enum { LINEAR_LO, LINEAR_HI, LINEAR_A, LINEAR_B, LINEAR_WIDTH };
 
 /* The distance of the point of u from an end, for heights a there and b at the other with
  * a + b = 1. Squares of small heights and small u are kept in range by a power of two. */
-static double linear_place(double u, double rest, double a, double b, double width)
+static double laws_linear_place(double u, double rest, double a, double b, double width)
 {
     const double up = u < 0x1p-500 ? 0x1p400 : 1, c = a * up, d = b * up;
     const double t = u * up / (a + sqrt(c * c * rest + d * d * u) / up);
@@ -59,8 +59,8 @@ static int linear_sample(double *x, double *pdf, const double *u, size_t n, cons
 {
     const double *p = g->param, lo = p[LINEAR_LO], hi = p[LINEAR_HI], width = p[LINEAR_WIDTH];
     for (size_t i = 0; i < n; i++) {
-        const double low = linear_place(u[i], 1 - u[i], p[LINEAR_A], p[LINEAR_B], width);
-        const double high = linear_place(1 - u[i], u[i], p[LINEAR_B], p[LINEAR_A], width);
+        const double low = laws_linear_place(u[i], 1 - u[i], p[LINEAR_A], p[LINEAR_B], width);
+        const double high = laws_linear_place(1 - u[i], u[i], p[LINEAR_B], p[LINEAR_A], width);
         x[i] = density_between(low < high ? lo + low : hi - high, lo, hi);
     }
     return pdf ? linear_pdf(pdf, x, n, g) : 0;

@@ -83,14 +83,17 @@ buffon_status buffon_priv_integrand_check(const buffon_integrand *f, size_t dim)
 buffon_status buffon_priv_points_check(const buffon_points *points, size_t dim)
 {
     if (points->fill == NULL || points->replicates > 256 ||
-        (unsigned)points->design > BUFFON_DESIGN_NONE)
+        (unsigned)points->design > BUFFON_DESIGN_NET)
+        return BUFFON_E_POINTS;
+    const int net = points->design == BUFFON_DESIGN_NET;
+    if (net && points->replicates > 1)
         return BUFFON_E_POINTS;
     if (!options_all_zero(points->reserved, 3))
         return BUFFON_E_RESERVED;
     const uint64_t round = points->round != NULL ? points->round(dim, points) : 1;
     if (round == 0 || round > UINT64_C(1) << 48)
         return BUFFON_E_POINTS;
-    if (points->doubling && (round & (round - 1)) != 0)
+    if ((points->doubling || net) && (round & (round - 1)) != 0)
         return BUFFON_E_POINTS;
     if ((points->design == BUFFON_DESIGN_ANTITHETIC ||
          points->design == BUFFON_DESIGN_STRATIFIED) &&

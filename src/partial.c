@@ -7,6 +7,7 @@
 #include <buffon/partial.h>
 
 #include "exact.h"
+#include "net.h"
 #include "record.h"
 #include "spread.h"
 
@@ -104,7 +105,7 @@ static size_t partial_more(size_t n, uint64_t a, uint64_t b)
 /* All words of a saved record of this shape; SIZE_MAX where no memory could hold it. */
 static size_t partial_count(const buffon_priv_shape *shape)
 {
-    const uint64_t cells = shape->strata * shape->replicates;
+    const uint64_t cells = shape->strata * shape->per_stratum;
     size_t cell = partial_more(0, buffon_priv_shape_series(shape), PARTIAL_STATS_WORDS);
     size_t n = PARTIAL_HEAD + 1;
     cell = partial_more(cell, buffon_priv_shape_cross(shape), 1);
@@ -156,6 +157,15 @@ buffon_status buffon_partial_save(void *bytes, size_t size, const buffon_partial
     return BUFFON_OK;
 }
 
+/* Could a stratum have so many cells? */
+static int partial_plausible_cells(const buffon_priv_shape *shape)
+{
+    if (shape->design == BUFFON_DESIGN_NET)
+        return shape->per_stratum >= BUFFON_PRIV_NET_RANGES && shape->per_stratum % 4 == 1 &&
+               shape->per_stratum <= BUFFON_PRIV_NET_RANGES_MOST;
+    return shape->per_stratum > 0 && shape->per_stratum <= 256;
+}
+
 /* Could a run have made this shape? The checksum guards against accidents; this and the exact size
  * guard the memory against everything else. */
 static int partial_plausible(const buffon_priv_shape *shape)
@@ -165,15 +175,27 @@ static int partial_plausible(const buffon_priv_shape *shape)
     memcpy(&scale, &shape->scale_m, sizeof scale);
     if (!(scale > 0 && scale <= 1) || shape->scale_e + far > 2 * far)
         return 0;
-    return shape->kind <= BUFFON_PRIV_RATIO && shape->design <= BUFFON_DESIGN_NONE &&
+    return shape->kind <= BUFFON_PRIV_RATIO && shape->design <= BUFFON_DESIGN_NET &&
            shape->components > 0 && shape->components <= many &&
            shape->outputs == shape->components + (shape->kind == BUFFON_PRIV_RATIO) &&
            shape->covariance <= 1 && shape->constant <= 1 &&
            (shape->covariance || shape->kind != BUFFON_PRIV_RATIO) && shape->strata > 0 &&
-           shape->strata <= 65536 && shape->replicates > 0 && shape->replicates <= 256 &&
-           shape->block >= 16 && shape->block <= many && !(shape->block & (shape->block - 1)) &&
-           shape->round > 0 && shape->parts > 0 && shape->parts <= UINT32_MAX && shape->looks > 0 &&
-           shape->looks <= 64;
+           shape->strata <= 65536 && partial_plausible_cells(shape) && shape->block >= 16 &&
+           shape->block <= many && !(shape->block & (shape->block - 1)) && shape->round > 0 &&
+           shape->parts > 0 && shape->parts <= UINT32_MAX && shape->looks > 0 && shape->looks <= 64;
+}
+
+/* Are the targets of a stratum those of a net? The ranges from the first on, each whole. */
+static int partial_is_net(const uint64_t *target, size_t ranges)
+{
+    size_t wanted = 0;
+    while (wanted < ranges && target[wanted] == buffon_priv_net_size(wanted))
+        wanted++;
+    for (size_t r = wanted; r < ranges; r++) {
+        if (target[r] > 0)
+            return 0;
+    }
+    return wanted >= BUFFON_PRIV_NET_RANGES && wanted % 4 == 1;
 }
 
 /* Do the counts of a record fit each other, and are its weights numbers? */
@@ -183,6 +205,11 @@ static int partial_consistent(const buffon_priv_record *record)
     const size_t cells = buffon_priv_shape_cells(shape), series = buffon_priv_shape_series(shape);
     for (size_t s = 0; s < shape->strata; s++) {
         if (!(record->weight[s] - record->weight[s] == 0))
+            return 0;
+    }
+    for (size_t s = 0; s < shape->strata && shape->design == BUFFON_DESIGN_NET; s++) {
+        const size_t ranges = (size_t)shape->per_stratum;
+        if (!partial_is_net(record->target + s * ranges, ranges))
             return 0;
     }
     for (size_t c = 0; c < cells; c++) {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "net.h"
 #include "options.h"
 #include "plan.h"
 
@@ -15,14 +16,26 @@ static uint64_t plan_ceil(double x)
     return whole + ((double)whole < x);
 }
 
+static int plan_is_net(const buffon_priv_plan *plan)
+{
+    return plan->shape.design == BUFFON_DESIGN_NET;
+}
+
+/* Independent repeats of a stratum: the ranges of a net are none. */
+static uint64_t plan_replicates(const buffon_priv_plan *plan)
+{
+    return plan_is_net(plan) ? 1 : plan->shape.per_stratum;
+}
+
 /* The least number of points of a replicate, at least n, that the point set allows. */
 static uint64_t plan_whole(const buffon_priv_plan *plan, uint64_t n)
 {
+    const uint64_t least = plan_is_net(plan) ? BUFFON_PRIV_NET_LEAST : 1;
     const uint64_t rounds = (n + plan->shape.round - 1) / plan->shape.round;
     uint64_t power = 1;
-    if (!plan->points.doubling)
+    if (!plan->points.doubling && !plan_is_net(plan))
         return rounds * plan->shape.round;
-    while (power < rounds)
+    while (power < rounds || power * plan->shape.round < least)
         power *= 2;
     return power * plan->shape.round;
 }
@@ -33,7 +46,7 @@ static uint64_t plan_whole(const buffon_priv_plan *plan, uint64_t n)
 static uint64_t plan_cell_points(const buffon_priv_plan *plan, size_t stratum, uint64_t samples)
 {
     const buffon_priv_problem *problem = plan->problem;
-    const uint64_t replicates = plan->shape.replicates;
+    const uint64_t replicates = plan_replicates(plan);
     uint64_t n = samples;
     if (problem->strata > 1) {
         double all = 0;
@@ -65,17 +78,34 @@ static uint64_t plan_round_points(const buffon_priv_plan *plan)
     return round;
 }
 
+/* The most points of a replicate. */
+static uint64_t plan_limit(const buffon_priv_plan *plan)
+{
+    const uint64_t most = UINT64_C(1) << BUFFON_PRIV_NET_MOST, given = plan->points.limit;
+    if (plan_is_net(plan))
+        return given > 0 && given < most ? given : most;
+    return given > 0 ? given : UINT64_MAX >> 1;
+}
+
+/* The targets of a stratum's cells for n points of each replicate. */
+static void plan_set(uint64_t *target, const buffon_priv_plan *plan, uint64_t n)
+{
+    for (size_t r = 0; r < plan->shape.per_stratum; r++) {
+        target[r] = n;
+        if (plan_is_net(plan))
+            target[r] = buffon_priv_net_begin(r) < n ? buffon_priv_net_size(r) : 0;
+    }
+}
+
 static buffon_status plan_targets(uint64_t *target, const buffon_priv_plan *plan, uint64_t samples)
 {
-    const uint64_t limit = plan->points.limit > 0 ? plan->points.limit : UINT64_MAX >> 1;
-    const uint64_t replicates = plan->shape.replicates;
+    const uint64_t limit = plan_limit(plan), replicates = plan_replicates(plan);
     uint64_t all = 0;
     for (size_t s = 0; s < plan->shape.strata; s++) {
         const uint64_t n = plan_cell_points(plan, s, samples);
         if (n > limit || n > (UINT64_MAX >> 1) / replicates - all / replicates - 1)
             return BUFFON_E_SAMPLES;
-        for (size_t r = 0; r < replicates; r++)
-            target[s * (size_t)replicates + r] = n;
+        plan_set(target + s * (size_t)plan->shape.per_stratum, plan, n);
         all += n * replicates;
     }
     return BUFFON_OK;
@@ -108,7 +138,7 @@ static void plan_shape(buffon_priv_plan *plan)
         .covariance = plan->run.covariance || ratio,
         .constant = plan->run.constant != 0,
         .strata = problem->strata,
-        .replicates = plan->points.replicates > 0 ? plan->points.replicates : 1,
+        .per_stratum = plan->points.replicates > 0 ? plan->points.replicates : 1,
         .block = plan->run.block,
         .scale_e = (uint64_t)(int64_t)problem->scale_e,
         .parts = plan->run.parts > 0 ? plan->run.parts : 1,
@@ -121,6 +151,22 @@ static void plan_shape(buffon_priv_plan *plan)
     }
 }
 
+/* Ranges of the largest net that the run wants or its partial has. */
+static uint64_t plan_ranges(const buffon_priv_plan *plan)
+{
+    const buffon_partial *partial = plan->run.partial;
+    const buffon_priv_record *record = partial != NULL ? buffon_priv_partial_record(partial) : NULL;
+    uint64_t ranges = BUFFON_PRIV_NET_RANGES;
+    if (record != NULL && record->shape.design == BUFFON_DESIGN_NET)
+        ranges = record->shape.per_stratum;
+    for (size_t s = 0; s < plan->shape.strata; s++) {
+        const uint64_t n = plan_cell_points(plan, s, plan->run.samples);
+        while (ranges < BUFFON_PRIV_NET_RANGES_MOST && buffon_priv_net_begin(ranges) < n)
+            ranges += 4;
+    }
+    return ranges;
+}
+
 buffon_status buffon_priv_plan_make(buffon_priv_plan *plan, const buffon_priv_problem *problem,
                                     const buffon_run *run)
 {
@@ -131,6 +177,8 @@ buffon_status buffon_priv_plan_make(buffon_priv_plan *plan, const buffon_priv_pr
     plan_shape(plan);
     if (plan->shape.round == 0)
         return BUFFON_E_POINTS;
+    if (plan_is_net(plan))
+        plan->shape.per_stratum = plan_ranges(plan);
     const size_t cells = buffon_priv_shape_cells(&plan->shape);
     plan->target = calloc(cells, sizeof *plan->target);
     plan->look = calloc(cells, sizeof *plan->look);
@@ -140,31 +188,40 @@ buffon_status buffon_priv_plan_make(buffon_priv_plan *plan, const buffon_priv_pr
     return plan_targets(plan->target, plan, plan->run.samples);
 }
 
-buffon_rng_key buffon_priv_plan_key(const buffon_priv_plan *plan, size_t cell)
+buffon_points_block buffon_priv_plan_block(const buffon_priv_plan *plan, size_t cell, uint64_t k)
 {
-    const size_t replicates = (size_t)plan->shape.replicates;
-    return (buffon_rng_key){.seed = plan->run.seed,
-                            .stream = plan->run.stream,
-                            .purpose = plan->problem->purpose,
-                            .replicate = (uint8_t)(cell % replicates),
-                            .stratum = (uint16_t)(cell / replicates)};
+    const size_t per_stratum = (size_t)plan->shape.per_stratum;
+    const size_t stratum = cell / per_stratum, r = cell % per_stratum;
+    const int net = plan_is_net(plan);
+    return (buffon_points_block){
+        .key = {.seed = plan->run.seed,
+                .stream = plan->run.stream,
+                .purpose = plan->problem->purpose,
+                .replicate = (uint8_t)(net ? 0 : r),
+                .stratum = (uint16_t)stratum},
+        .first = k * plan->shape.block + (net ? buffon_priv_net_begin(r) : 0),
+        .dim = plan->problem->stratum[stratum].g->uniforms + plan->problem->extra,
+        .table = plan->table[net ? cell - r : cell]};
+}
+
+uint64_t buffon_priv_plan_index(const buffon_priv_plan *plan, size_t cell, uint64_t k, size_t i)
+{
+    const buffon_points_block block = buffon_priv_plan_block(plan, cell, k);
+    return (block.first + i) * plan_replicates(plan) + block.key.replicate;
 }
 
 buffon_status buffon_priv_plan_prepare(buffon_priv_plan *plan)
 {
-    const buffon_priv_problem *problem = plan->problem;
-    for (size_t c = 0; c < buffon_priv_shape_cells(&plan->shape); c++) {
-        const size_t dim =
-            problem->stratum[c / plan->shape.replicates].g->uniforms + problem->extra;
+    const size_t step = plan_is_net(plan) ? (size_t)plan->shape.per_stratum : 1;
+    for (size_t c = 0; c < buffon_priv_shape_cells(&plan->shape); c += step) {
+        buffon_points_block block = buffon_priv_plan_block(plan, c, 0);
         const size_t size =
-            plan->points.table_size != NULL ? plan->points.table_size(dim, &plan->points) : 0;
+            plan->points.table_size != NULL ? plan->points.table_size(block.dim, &plan->points) : 0;
         if (size == 0 && plan->points.prepare == NULL)
             continue;
-        plan->table[c] = malloc(size > 0 ? size : 1);
-        if (plan->table[c] == NULL)
+        block.table = plan->table[c] = malloc(size > 0 ? size : 1);
+        if (block.table == NULL)
             return BUFFON_E_NOMEM;
-        const buffon_points_block block = {
-            .key = buffon_priv_plan_key(plan, c), .dim = dim, .table = plan->table[c]};
         if (plan->points.prepare != NULL && plan->points.prepare(&block, &plan->points) != 0)
             return BUFFON_E_POINTS;
     }
@@ -188,6 +245,8 @@ static int plan_same_run(const buffon_priv_plan *plan, const buffon_priv_record 
     buffon_priv_shape a = plan->shape, b = record->shape;
     a.parts = b.parts = 1;
     a.looks = b.looks = 1;
+    if (a.design == BUFFON_DESIGN_NET) /* it has as many ranges as it needs */
+        a.per_stratum = b.per_stratum;
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
@@ -230,7 +289,11 @@ buffon_status buffon_priv_plan_attach(buffon_priv_record **record, int *fresh,
     if (plan->run.parts > 0 &&
         ((*record)->shape.parts != plan->run.parts || plan_holds_others(plan, *record)))
         return BUFFON_E_MISMATCH;
-    return BUFFON_OK;
+    if ((*record)->shape.per_stratum < shape->per_stratum) {
+        *record = buffon_priv_record_grown(*record, shape->per_stratum);
+        *fresh = 1;
+    }
+    return *record != NULL ? BUFFON_OK : BUFFON_E_NOMEM;
 }
 
 /* A whole run that goes on from parts which are all there has no parts any more. */
@@ -253,17 +316,35 @@ static uint64_t plan_extent(const buffon_priv_record *record, size_t cell)
     uint64_t extent = 0;
     for (uint64_t p = 0; p < shape->parts; p++) {
         const uint64_t done = record->done[p * cells + cell];
-        const uint64_t first = (p + shape->parts - cell % shape->parts) % shape->parts;
+        const uint64_t first = buffon_priv_record_first(record, p, cell);
         const uint64_t end = done > 0 ? (first + (done - 1) * shape->parts + 1) * shape->block : 0;
         extent = end > extent ? end : extent;
     }
     return extent;
 }
 
+/* The ranges of a net never change: where one was begun, the whole net that has it is wanted. */
+static void plan_extend_nets(buffon_priv_record *record, const buffon_priv_plan *plan)
+{
+    const size_t ranges = (size_t)plan->shape.per_stratum;
+    for (size_t c = 0; c < buffon_priv_shape_cells(&plan->shape); c += ranges) {
+        uint64_t n = 0;
+        for (size_t r = 0; r < ranges; r++) {
+            if (plan->target[c + r] > 0 || buffon_priv_record_count(record, c + r) > 0)
+                n = plan_whole(plan, buffon_priv_net_begin(r) + buffon_priv_net_size(r));
+        }
+        plan_set(record->target + c, plan, n);
+    }
+}
+
 void buffon_priv_plan_extend(buffon_priv_record *record, const buffon_priv_plan *plan)
 {
     plan_join_parts(record, plan);
     record->shape.looks = plan->shape.looks;
+    if (plan_is_net(plan)) {
+        plan_extend_nets(record, plan);
+        return;
+    }
     for (size_t c = 0; c < buffon_priv_shape_cells(&record->shape); c++) {
         const int tail = buffon_priv_cell_count(&record->tail, c, &record->shape) > 0;
         const uint64_t done = plan_extent(record, c);
@@ -287,9 +368,9 @@ int buffon_priv_plan_look(buffon_priv_plan *plan, const buffon_priv_record *reco
         const uint64_t target = record->target[c];
         plan->look[c] = last || whole > target ? target : whole;
         /* The short last block of a small stratum may belong to an early look. */
-        ahead |= plan_extent(record, c) > plan->look[c] ||
-                 (plan->look[c] < target &&
-                  buffon_priv_cell_count(&record->tail, c, &plan->shape) > 0);
+        ahead |=
+            plan_extent(record, c) > plan->look[c] ||
+            (plan->look[c] < target && buffon_priv_cell_count(&record->tail, c, &plan->shape) > 0);
     }
     return !ahead;
 }

@@ -14,7 +14,7 @@ typedef struct buffon_priv_plan {
     buffon_priv_shape shape;
     uint64_t *target; /* [cells] points of the whole run */
     uint64_t *look;   /* [cells] points at the present look */
-    void **table;     /* [cells] of the point set */
+    void **table;     /* [cells] of the point set; those of a net have one, the first cell's */
 } buffon_priv_plan;
 
 /** Plans a run whose problem and options were found sensible: BUFFON_OK, BUFFON_E_POINTS, _SAMPLES
@@ -26,14 +26,17 @@ void buffon_priv_plan_free(buffon_priv_plan *plan);
 /** Makes the tables of the point set: BUFFON_OK, BUFFON_E_NOMEM or BUFFON_E_POINTS. */
 buffon_status buffon_priv_plan_prepare(buffon_priv_plan *plan);
 
-/** Where the points of a cell come from. */
-buffon_rng_key buffon_priv_plan_key(const buffon_priv_plan *plan, size_t cell);
+/** Where block k of a cell comes from: key, index of its first point, dimension and table. */
+buffon_points_block buffon_priv_plan_block(const buffon_priv_plan *plan, size_t cell, uint64_t k);
+
+/** The point i of that block by the index that buffon_sample_at takes. */
+uint64_t buffon_priv_plan_index(const buffon_priv_plan *plan, size_t cell, uint64_t k, size_t i);
 
 /** Is a tolerance asked for? */
 int buffon_priv_plan_tolerance(const buffon_priv_plan *plan);
 
-/** The record that the run adds to: that of its partial if it is of the same run, else a fresh one.
- */
+/** The record that the run adds to: that of its partial if it is of the same run, or a fresh one.
+ *  A fresh one is to take the place of the partial's, which is empty or has too few cells. */
 buffon_status buffon_priv_plan_attach(buffon_priv_record **record, int *fresh,
                                       const buffon_priv_plan *plan);
 

@@ -1,7 +1,6 @@
 #include "guard.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "elementary.h"
 #include "pvalue.h"
@@ -71,16 +70,35 @@ double buffon_priv_p_kolmogorov(double d, double n)
     return sum;
 }
 
-static int pvalue_order(const void *a, const void *b)
+/* Moves x down from the root k of a heap until it is no less than what is below it. */
+static void pvalue_sink(double *v, size_t k, size_t n, double x)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    for (size_t child = 2 * k + 1; child < n; child = 2 * k + 1) {
+        child += child + 1 < n && v[child + 1] > v[child];
+        if (!(v[child] > x))
+            break;
+        v[k] = v[child];
+        k = child;
+    }
+    v[k] = x;
+}
+
+/* Heapsort: qsort may allocate memory, and is not the same everywhere. */
+void buffon_priv_sort(double *v, size_t n)
+{
+    for (size_t k = n / 2; k-- > 0;)
+        pvalue_sink(v, k, n, v[k]);
+    for (size_t end = n; end-- > 1;) {
+        const double x = v[end];
+        v[end] = v[0];
+        pvalue_sink(v, 0, end, x);
+    }
 }
 
 double buffon_priv_kolmogorov(double *v, size_t n)
 {
     double d = 0;
-    qsort(v, n, sizeof *v, pvalue_order);
+    buffon_priv_sort(v, n);
     for (size_t i = 0; i < n; i++) {
         const double above = (double)(i + 1) / (double)n - v[i];
         const double below = v[i] - (double)i / (double)n;

@@ -14,6 +14,9 @@ double buffon_priv_p_chi_square(double x, double dof);
  *  law with M. Stephens' correction (1970). */
 double buffon_priv_p_kolmogorov(double d, double n);
 
+/** Sorts n numbers, none of them NaN. */
+void buffon_priv_sort(double *v, size_t n);
+
 /** The Kolmogorov-Smirnov statistic of n numbers, which are sorted, against the uniform law. */
 double buffon_priv_kolmogorov(double *v, size_t n);
 

@@ -4,6 +4,7 @@
 #include <buffon/interval.h>
 
 #include "elementary.h"
+#include "incomplete.h"
 #include "quantile.h"
 
 #define QUANTILE_NAN buffon_priv_from_bits(UINT64_C(0x7ff8000000000000))
@@ -33,11 +34,19 @@ static double quantile_normal(double inside, double outside)
 }
 
 /* T^2 / (dof + T^2) is beta with parameters 1/2 and dof / 2, so T^2 is its odds against those of
- * the mean, and log T^2 what buffon_priv_beta_point returns. */
+ * the mean, and log T^2 mu of buffon_priv_beta_quantile. */
+double buffon_priv_student_from(const buffon_priv_beta *law, double inside, double outside)
+{
+    const double z = quantile_normal(inside, outside), dof = 2 * law->b;
+    const double guess =
+        z * z < 2 * dof ? 2 * buffon_priv_log(quantile_student_series(z, dof)) : QUANTILE_NAN;
+    return buffon_priv_exp(0.5 * buffon_priv_beta_quantile(law, inside, outside, guess).mu);
+}
+
 double buffon_priv_student_central(double inside, double outside, double dof)
 {
     const double z = quantile_normal(inside, outside);
-    double guess = QUANTILE_NAN, x;
+    buffon_priv_beta law;
     if (z == 0) {
         return 0;
     }
@@ -51,11 +60,8 @@ double buffon_priv_student_central(double inside, double outside, double dof)
     if (dof >= 1000 && z * z <= 0.01 * dof) {
         return quantile_student_series(z, dof);
     }
-    if (z * z < 2 * dof) {
-        guess = 2 * buffon_priv_log(quantile_student_series(z, dof));
-    }
-    guess = buffon_priv_beta_point(&x, inside, outside, 0.5, 0.5 * dof, guess);
-    return buffon_priv_exp(0.5 * guess);
+    buffon_priv_beta_make(&law, 0.5, 0.5 * dof);
+    return buffon_priv_student_from(&law, inside, outside);
 }
 
 double buffon_priv_student_two_sided(double alpha, double dof)
@@ -74,15 +80,17 @@ double buffon_student_upper(double q, double dof)
     return q > 0.5 ? -t : t;
 }
 
+/* The x of a beta law with `lower` of the probability below it. */
+static double quantile_beta(double lower, double upper, double a, double b)
+{
+    buffon_priv_beta law;
+    buffon_priv_beta_make(&law, a, b);
+    return buffon_priv_beta_quantile(&law, lower, upper, QUANTILE_NAN).x;
+}
+
 void buffon_priv_clopper_pearson(double *lo, double *hi, uint64_t hits, uint64_t n, double alpha)
 {
     const double miss = 0.5 * alpha, k = (double)hits, rest = (double)(n - hits);
-    *lo = 0;
-    *hi = 1;
-    if (hits > 0) {
-        buffon_priv_beta_point(lo, miss, 1 - miss, k, rest + 1, QUANTILE_NAN);
-    }
-    if (hits < n) {
-        buffon_priv_beta_point(hi, 1 - miss, miss, k + 1, rest, QUANTILE_NAN);
-    }
+    *lo = hits > 0 ? quantile_beta(miss, 1 - miss, k, rest + 1) : 0;
+    *hi = hits < n ? quantile_beta(1 - miss, miss, k + 1, rest) : 1;
 }

@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "incomplete.h"
+
 /* z with P(|Z| > z) = alpha, for alpha in (0, 1). */
 double buffon_priv_normal_two_sided(double alpha);
 
@@ -15,15 +17,11 @@ double buffon_priv_student_two_sided(double alpha, double dof);
 /* t with P(|T| <= t) = inside and P(|T| > t) = outside, where the two add up to 1. */
 double buffon_priv_student_central(double inside, double outside, double dof);
 
+/* The same, neither of them 0, from the law of t^2 / (dof + t^2): beta of 1/2 and dof / 2. */
+double buffon_priv_student_from(const buffon_priv_beta *law, double inside, double outside);
+
 /* The Clopper-Pearson interval that misses with probability at most alpha / 2 on each side;
  * hits <= n, n >= 1, alpha in (0, 1). */
 void buffon_priv_clopper_pearson(double *lo, double *hi, uint64_t hits, uint64_t n, double alpha);
-
-/* The point x of a beta distribution with `lower` of the probability below it and `upper` above,
- * where the two add up to 1 and neither is 0. Returns log((x / y) / (a / b)) with y = 1 - x, which
- * loses neither a tiny x nor a tiny y. The search starts at `guess` of that logarithm, or where it
- * sees fit if guess is NaN. */
-double buffon_priv_beta_point(double *x, double lower, double upper, double a, double b,
-                              double guess);
 
 #endif

@@ -8,7 +8,7 @@
 
 size_t buffon_priv_shape_cells(const buffon_priv_shape *shape)
 {
-    return (size_t)(shape->strata * shape->replicates);
+    return (size_t)(shape->strata * shape->per_stratum);
 }
 
 size_t buffon_priv_shape_variants(const buffon_priv_shape *shape)
@@ -103,6 +103,13 @@ uint64_t buffon_priv_cell_count(const buffon_priv_cells *cells, size_t cell,
     return cells->stats[cell * buffon_priv_shape_series(shape)].count;
 }
 
+uint64_t buffon_priv_record_count(const buffon_priv_record *record, size_t cell)
+{
+    const buffon_priv_shape *shape = &record->shape;
+    return buffon_priv_cell_count(&record->whole, cell, shape) +
+           buffon_priv_cell_count(&record->tail, cell, shape);
+}
+
 buffon_priv_record *buffon_priv_record_make(const buffon_priv_shape *shape)
 {
     const size_t cells = buffon_priv_shape_cells(shape);
@@ -124,6 +131,16 @@ buffon_priv_record *buffon_priv_record_make(const buffon_priv_shape *shape)
     return record;
 }
 
+/* Cell `from` of one as cell `to` of another. */
+static void record_copy(buffon_priv_cells *into, size_t to, const buffon_priv_cells *cells,
+                        size_t from, const buffon_priv_shape *shape)
+{
+    const size_t series = buffon_priv_shape_series(shape), cross = buffon_priv_shape_cross(shape);
+    memcpy(into->stats + to * series, cells->stats + from * series, series * sizeof(buffon_stats));
+    if (cross > 0)
+        memcpy(into->cross + to * cross, cells->cross + from * cross, cross * sizeof(uint64_t));
+}
+
 void buffon_priv_record_free(buffon_priv_record *record)
 {
     if (record == NULL)
@@ -136,9 +153,46 @@ void buffon_priv_record_free(buffon_priv_record *record)
     free(record);
 }
 
+buffon_priv_record *buffon_priv_record_grown(const buffon_priv_record *record, uint64_t per_stratum)
+{
+    const buffon_priv_shape *old = &record->shape;
+    buffon_priv_shape shape = *old;
+    shape.per_stratum = per_stratum;
+    buffon_priv_record *grown = buffon_priv_record_make(&shape);
+    const size_t cells = buffon_priv_shape_cells(old), all = buffon_priv_shape_cells(&shape);
+    if (grown == NULL)
+        return NULL;
+    memcpy(grown->weight, record->weight, (size_t)old->strata * sizeof(double));
+    for (size_t c = 0; c < cells; c++) {
+        const size_t n = (size_t)old->per_stratum;
+        const size_t to = c / n * (size_t)per_stratum + c % n;
+        grown->target[to] = record->target[c];
+        for (size_t p = 0; p < old->parts; p++)
+            grown->done[p * all + to] = record->done[p * cells + c];
+        record_copy(&grown->whole, to, &record->whole, c, old);
+        record_copy(&grown->tail, to, &record->tail, c, old);
+    }
+    return grown;
+}
+
+/* What tells the cells of a run apart when blocks are given to parts. Nets have more cells as they
+ * grow, which must change no owner. */
+static uint64_t record_label(const buffon_priv_shape *shape, size_t cell)
+{
+    if (shape->design == BUFFON_DESIGN_NET)
+        return cell / shape->per_stratum + cell % shape->per_stratum;
+    return cell;
+}
+
 uint64_t buffon_priv_record_owner(const buffon_priv_record *record, size_t cell, uint64_t k)
 {
-    return (k + cell) % record->shape.parts;
+    return (k + record_label(&record->shape, cell)) % record->shape.parts;
+}
+
+uint64_t buffon_priv_record_first(const buffon_priv_record *record, uint64_t part, size_t cell)
+{
+    const uint64_t parts = record->shape.parts;
+    return (part + parts - record_label(&record->shape, cell) % parts) % parts;
 }
 
 int buffon_priv_record_has(const buffon_priv_record *record, size_t cell, uint64_t k)
@@ -157,7 +211,7 @@ uint64_t buffon_priv_record_owned(const buffon_priv_record *record, uint64_t par
                                   uint64_t blocks)
 {
     const uint64_t parts = record->shape.parts;
-    const uint64_t first = (part + parts - cell % parts) % parts;
+    const uint64_t first = buffon_priv_record_first(record, part, cell);
     return blocks > first ? (blocks - first - 1) / parts + 1 : 0;
 }
 
@@ -165,9 +219,7 @@ int buffon_priv_record_complete(const buffon_priv_record *record)
 {
     const buffon_priv_shape *shape = &record->shape;
     for (size_t c = 0; c < buffon_priv_shape_cells(shape); c++) {
-        const uint64_t have = buffon_priv_cell_count(&record->whole, c, shape) +
-                              buffon_priv_cell_count(&record->tail, c, shape);
-        if (have < record->target[c])
+        if (buffon_priv_record_count(record, c) < record->target[c])
             return 0;
     }
     return 1;
@@ -178,7 +230,6 @@ uint64_t buffon_priv_record_points(const buffon_priv_record *record)
     const buffon_priv_shape *shape = &record->shape;
     uint64_t points = 0;
     for (size_t c = 0; c < buffon_priv_shape_cells(shape); c++)
-        points += buffon_priv_cell_count(&record->whole, c, shape) +
-                  buffon_priv_cell_count(&record->tail, c, shape);
+        points += buffon_priv_record_count(record, c);
     return points;
 }

@@ -1,10 +1,11 @@
 /* What hangs on a buffon_partial: exact sums in cells, and which blocks are in them.
  *
- * A cell is one replicate of one stratum: cell = stratum * replicates + replicate. Its points are
- * cut into blocks; block k of a cell belongs to part (k + cell) mod parts. Of each part a prefix of
- * its blocks is done, so a count for each (part, cell) says which. The last block of a cell may be
- * short: its sums are kept apart (the tail), because a run that goes on evaluates that block again,
- * whole.
+ * A cell is one replicate of one stratum, cell = stratum * replicates + replicate, or one range of
+ * a net (net.h). Its points are cut into blocks; block k of a cell belongs to part (k + cell) mod
+ * parts; of a net, which may come to have more cells, to part (k + stratum + range) mod parts. Of
+ * each part a prefix of its blocks is done, so a count for each (part, cell) says which. The last
+ * block of a cell may be short: its sums are kept apart (the tail), because a run that goes on
+ * evaluates that block again, whole.
  *
  * In a cell there is one buffon_stats for each series: the outputs y themselves, then, for points
  * that come in pairs, their pair means (y0 + y1)/2, then, for stratified pairs, (y0 - y1)/2.
@@ -31,7 +32,8 @@ typedef struct buffon_priv_shape {
     uint64_t outputs;    /* numbers that a point yields */
     uint64_t covariance; /* are cross products kept? */
     uint64_t constant;   /* is zero spread certainty? */
-    uint64_t strata, replicates;
+    uint64_t strata;
+    uint64_t per_stratum; /* cells of a stratum: its replicates, or the ranges of a net */
     uint64_t block;
     uint64_t round;   /* points of a full sweep of the point set */
     uint64_t scale_m; /* bits of the factor of all means ... */
@@ -83,9 +85,19 @@ void buffon_priv_cell_clear(const buffon_priv_cells *cells, size_t cell,
 uint64_t buffon_priv_cell_count(const buffon_priv_cells *cells, size_t cell,
                                 const buffon_priv_shape *shape);
 
+/** Points in a cell of a record, in whole blocks and the tail. */
+uint64_t buffon_priv_record_count(const buffon_priv_record *record, size_t cell);
+
 /** A record with nothing done, or NULL without memory. */
 buffon_priv_record *buffon_priv_record_make(const buffon_priv_shape *shape);
 void buffon_priv_record_free(buffon_priv_record *record);
+
+/** A copy with more cells in each stratum, empty ones; NULL without memory. */
+buffon_priv_record *buffon_priv_record_grown(const buffon_priv_record *record,
+                                             uint64_t per_stratum);
+
+/** The first block of a cell that a part owns; the others follow at a distance of `parts`. */
+uint64_t buffon_priv_record_first(const buffon_priv_record *record, uint64_t part, size_t cell);
 
 /** Which part owns block k of a cell, and is the block done? */
 uint64_t buffon_priv_record_owner(const buffon_priv_record *record, size_t cell, uint64_t k);

@@ -307,6 +307,15 @@ buffon_points buffon_points_sobol(buffon_scramble scramble)
     return points;
 }
 
+buffon_points buffon_points_sobol_net(buffon_scramble scramble)
+{
+    buffon_points points = buffon_points_sobol(scramble);
+    points.replicates = 1;
+    if (points.design == BUFFON_DESIGN_REPLICATES)
+        points.design = BUFFON_DESIGN_NET;
+    return points;
+}
+
 /* The length of the row that begins here, of at most `left` numbers; 0 if it is none. */
 static size_t sobol_row_length(const uint32_t *row, size_t left)
 {

@@ -4,21 +4,58 @@
 #include <string.h>
 
 #include "exact.h"
+#include "net.h"
 #include "spread.h"
 #include "stats_priv.h"
 
-/* The exact sample of one series of a stratum, over its replicates from r on to the end. */
+#define SPREAD_GROUPS 256 /* the most replicates */
+
+/* The first cell of a stratum. */
+static size_t spread_first(const buffon_priv_record *record, size_t stratum)
+{
+    return stratum * (size_t)record->shape.per_stratum;
+}
+
 void buffon_priv_spread_pool(buffon_stats *pool, const buffon_priv_record *record, size_t stratum,
-                             size_t r, size_t end, size_t series)
+                             size_t series)
 {
     const buffon_priv_shape *shape = &record->shape;
-    const size_t all = buffon_priv_shape_series(shape);
+    const size_t all = buffon_priv_shape_series(shape), first = spread_first(record, stratum);
     memset(pool, 0, sizeof *pool);
-    for (; r < end; r++) {
-        const size_t at = (stratum * (size_t)shape->replicates + r) * all + series;
+    for (size_t c = first; c < first + shape->per_stratum; c++) {
+        const size_t at = c * all + series;
         buffon_stats_merge(pool, &record->whole.stats[at]);
         buffon_stats_merge(pool, &record->tail.stats[at]);
     }
+}
+
+/* The sum of one series of some cells and the number of its values; their mean. */
+typedef struct spread_sum {
+    uint64_t count;
+    uint64_t limbs[BUFFON_STATS_SUM];
+} spread_sum;
+
+static void spread_add(spread_sum *sum, const buffon_stats *stats)
+{
+    if (stats->count == 0)
+        return;
+    sum->count += stats->count;
+    buffon_priv_limbs_merge(sum->limbs, stats->sum, BUFFON_STATS_SUM);
+}
+
+static buffon_priv_wide spread_mean(uint64_t *count, const buffon_priv_record *record, size_t first,
+                                    size_t end, size_t series)
+{
+    const size_t all = buffon_priv_shape_series(&record->shape);
+    spread_sum sum = {0, {0}};
+    for (size_t c = first; c < end; c++) {
+        spread_add(&sum, &record->whole.stats[c * all + series]);
+        spread_add(&sum, &record->tail.stats[c * all + series]);
+    }
+    *count = sum.count;
+    if (sum.count == 0)
+        return buffon_priv_wide_of(NAN);
+    return buffon_priv_limbs_over(sum.limbs, BUFFON_STATS_SUM, sum.count, BUFFON_PRIV_SUM_UNIT);
 }
 
 static void spread_pool_cross(uint64_t *limbs, const buffon_priv_record *record, size_t stratum,
@@ -28,8 +65,8 @@ static void spread_pool_cross(uint64_t *limbs, const buffon_priv_record *record,
     const size_t words = buffon_priv_shape_cross(shape);
     const size_t at = buffon_priv_shape_cross_at(shape, variant, a, b);
     memset(limbs, 0, BUFFON_STATS_SQUARES * sizeof *limbs);
-    for (size_t r = 0; r < shape->replicates; r++) {
-        const size_t cell = stratum * (size_t)shape->replicates + r;
+    for (size_t r = 0; r < shape->per_stratum; r++) {
+        const size_t cell = spread_first(record, stratum) + r;
         const size_t from = cell * words + at;
         buffon_priv_limbs_merge(limbs, record->whole.cross + from, BUFFON_STATS_SQUARES);
         buffon_priv_limbs_merge(limbs, record->tail.cross + from, BUFFON_STATS_SQUARES);
@@ -39,20 +76,17 @@ static void spread_pool_cross(uint64_t *limbs, const buffon_priv_record *record,
 buffon_priv_wide buffon_priv_spread_mean(const buffon_priv_record *record, size_t stratum,
                                          size_t output)
 {
-    buffon_stats pool;
-    buffon_priv_spread_pool(&pool, record, stratum, 0, (size_t)record->shape.replicates, output);
-    return buffon_priv_stats_mean_wide(&pool);
+    const size_t first = spread_first(record, stratum);
+    uint64_t count;
+    return spread_mean(&count, record, first, first + (size_t)record->shape.per_stratum, output);
 }
 
 uint64_t buffon_priv_spread_count(const buffon_priv_record *record, size_t stratum)
 {
-    const buffon_priv_shape *shape = &record->shape;
+    const size_t first = spread_first(record, stratum);
     uint64_t count = 0;
-    for (size_t r = 0; r < shape->replicates; r++) {
-        const size_t cell = stratum * (size_t)shape->replicates + r;
-        count += buffon_priv_cell_count(&record->whole, cell, shape) +
-                 buffon_priv_cell_count(&record->tail, cell, shape);
-    }
+    for (size_t c = first; c < first + record->shape.per_stratum; c++)
+        count += buffon_priv_record_count(record, c);
     return count;
 }
 
@@ -74,11 +108,10 @@ static int spread_gapless(const buffon_priv_record *record, size_t cell)
 static int spread_swept(const buffon_priv_record *record, size_t stratum)
 {
     const buffon_priv_shape *shape = &record->shape;
-    for (size_t r = 0; r < shape->replicates; r++) {
-        const size_t cell = stratum * (size_t)shape->replicates + r;
-        const uint64_t count = buffon_priv_cell_count(&record->whole, cell, shape) +
-                               buffon_priv_cell_count(&record->tail, cell, shape);
-        if (count % shape->round != 0 || !spread_gapless(record, cell))
+    for (size_t r = 0; r < shape->per_stratum; r++) {
+        const size_t cell = spread_first(record, stratum) + r;
+        if (buffon_priv_record_count(record, cell) % shape->round != 0 ||
+            !spread_gapless(record, cell))
             return 0;
     }
     return 1;
@@ -108,17 +141,16 @@ buffon_priv_spread buffon_priv_spread_pairs(const buffon_priv_record *record, si
 {
     const size_t variant = buffon_priv_spread_variant(record, stratum),
                  first = variant * (size_t)record->shape.outputs;
-    const size_t end = (size_t)record->shape.replicates;
     uint64_t limbs[BUFFON_STATS_SQUARES];
     buffon_stats sa, sb;
     buffon_priv_wide square;
-    buffon_priv_spread_pool(&sa, record, stratum, 0, end, first + a);
+    buffon_priv_spread_pool(&sa, record, stratum, first + a);
     if (variant == 2 && a == b)
         square = buffon_priv_stats_mean_square(&sa);
     else if (a == b)
         square = buffon_priv_stats_variance(&sa);
     else {
-        buffon_priv_spread_pool(&sb, record, stratum, 0, end, first + b);
+        buffon_priv_spread_pool(&sb, record, stratum, first + b);
         spread_pool_cross(limbs, record, stratum, variant, a < b ? a : b, a < b ? b : a);
         square = buffon_priv_cross_covariance(limbs, &sa, &sb);
         if (variant == 2 && sa.count > 1) {
@@ -134,29 +166,54 @@ buffon_priv_spread buffon_priv_spread_pairs(const buffon_priv_record *record, si
                                 .dof = (double)(sa.count - (variant != 2 && sa.count > 0))};
 }
 
-/* Covariance of the means over R replicates that have points, with weights w_r = n_r / n:
- * R / (R - 1) sum w_r^2 (a_r - a)(b_r - b), which for equal n_r is the usual sum / (R (R - 1)). */
-static buffon_priv_spread spread_replicates(const buffon_priv_record *record, size_t stratum,
-                                            size_t a, size_t b)
+/* Ranges of the least net that has all points of the stratum. More may be wanted: at a look before
+ * the last it is the net of that look. */
+static size_t spread_ranges(const buffon_priv_record *record, size_t stratum)
+{
+    const size_t first = spread_first(record, stratum);
+    size_t end = (size_t)record->shape.per_stratum;
+    while (end > BUFFON_PRIV_NET_RANGES && buffon_priv_record_count(record, first + end - 1) == 0)
+        end--;
+    return (end + 2) / 4 * 4 + 1;
+}
+
+/* Groups of cells that count as one repeat each: replicates, or the eighths of a net. Group g of
+ * a stratum is cells group[g], ..., group[g + 1] - 1. Returns their number. */
+static size_t spread_groups(size_t group[SPREAD_GROUPS + 1], const buffon_priv_record *record,
+                            size_t stratum)
+{
+    const int net = record->shape.design == BUFFON_DESIGN_NET;
+    const size_t groups = net ? BUFFON_PRIV_NET_BLOCKS : (size_t)record->shape.per_stratum;
+    const size_t ranges = net ? spread_ranges(record, stratum) : 0;
+    for (size_t g = 0; g <= groups; g++)
+        group[g] = spread_first(record, stratum) + (net ? buffon_priv_net_eighth(ranges, g) : g);
+    return groups;
+}
+
+/* Covariance of the means over R groups that have points, with weights w_g = n_g / n:
+ * R / (R - 1) sum w_g^2 (a_g - a)(b_g - b), which for equal n_g is the usual sum / (R (R - 1)). */
+static buffon_priv_spread spread_repeats(const buffon_priv_record *record, size_t stratum, size_t a,
+                                         size_t b)
 {
     const buffon_priv_wide mean_a = buffon_priv_spread_mean(record, stratum, a);
     const buffon_priv_wide mean_b = buffon_priv_spread_mean(record, stratum, b);
     const buffon_priv_wide n = buffon_priv_wide_count(buffon_priv_spread_count(record, stratum));
     buffon_priv_wide sum = buffon_priv_wide_of(0);
+    size_t group[SPREAD_GROUPS + 1];
+    const size_t groups = spread_groups(group, record, stratum);
     uint64_t present = 0;
-    for (size_t r = 0; r < record->shape.replicates; r++) {
-        buffon_stats pool;
+    for (size_t g = 0; g < groups; g++) {
+        uint64_t count;
         buffon_priv_wide weight, da, db;
-        buffon_priv_spread_pool(&pool, record, stratum, r, r + 1, a);
-        if (pool.count == 0)
+        da = spread_mean(&count, record, group[g], group[g + 1], a);
+        if (count == 0)
             continue;
         present++;
-        weight = buffon_priv_wide_div(buffon_priv_wide_count(pool.count), n);
-        da = buffon_priv_wide_add(buffon_priv_stats_mean_wide(&pool),
-                                  buffon_priv_wide_negate(mean_a));
-        buffon_priv_spread_pool(&pool, record, stratum, r, r + 1, b);
-        db = buffon_priv_wide_add(buffon_priv_stats_mean_wide(&pool),
-                                  buffon_priv_wide_negate(mean_b));
+        weight = buffon_priv_wide_div(buffon_priv_wide_count(count), n);
+        da = buffon_priv_wide_add(da, buffon_priv_wide_negate(mean_a));
+        db = a == b ? da
+                    : buffon_priv_wide_add(spread_mean(&count, record, group[g], group[g + 1], b),
+                                           buffon_priv_wide_negate(mean_b));
         sum = buffon_priv_wide_add(sum, buffon_priv_wide_mul(buffon_priv_wide_mul(weight, da),
                                                              buffon_priv_wide_mul(weight, db)));
     }
@@ -174,7 +231,8 @@ static buffon_priv_spread spread_stratum(const buffon_priv_record *record, size_
     case BUFFON_DESIGN_NONE:
         return (buffon_priv_spread){buffon_priv_wide_of(NAN), 0};
     case BUFFON_DESIGN_REPLICATES:
-        return spread_replicates(record, stratum, a, b);
+    case BUFFON_DESIGN_NET:
+        return spread_repeats(record, stratum, a, b);
     default:
         return buffon_priv_spread_pairs(record, stratum, a, b);
     }

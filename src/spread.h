@@ -1,5 +1,5 @@
 /* From the exact sums of a record to means, and to what their errors are by the design of the
- * points: independent values, pairs, stratified pairs, replicates.
+ * points: independent values, pairs, stratified pairs, replicates, blocks of a net.
  */
 #ifndef BUFFON_SPREAD_H
 #define BUFFON_SPREAD_H
@@ -13,9 +13,9 @@ typedef struct buffon_priv_spread {
     double dof;
 } buffon_priv_spread;
 
-/** The exact sample of one series of a stratum, over its replicates r to end - 1. */
+/** The exact sample of one series of a stratum. */
 void buffon_priv_spread_pool(buffon_stats *pool, const buffon_priv_record *record, size_t stratum,
-                             size_t r, size_t end, size_t series);
+                             size_t series);
 
 /** Points in a stratum, and the mean of an output there. */
 uint64_t buffon_priv_spread_count(const buffon_priv_record *record, size_t stratum);

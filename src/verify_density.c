@@ -154,19 +154,13 @@ static int verify_points(verify *t, const verify_cloud *cloud, buffon_status *st
     return *status == BUFFON_OK;
 }
 
-static int verify_order(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median and half the distance of the quartiles of each coordinate. */
 static void verify_measure(verify *t, const verify_cloud *cloud)
 {
     const size_t n = cloud->n;
     for (size_t j = 0; j < t->g->dim && j < VERIFY_DIM; j++) {
         memcpy(t->again, cloud->x + j * n, n * sizeof *t->again);
-        qsort(t->again, n, sizeof *t->again, verify_order);
+        buffon_priv_sort(t->again, n);
         const double half = 0.5 * t->again[n - 1 - n / 4] - 0.5 * t->again[n / 4];
         const double range = t->again[n - 1] - t->again[0];
         t->middle[j] = t->again[n / 2];
@@ -755,7 +749,7 @@ static buffon_status verify_discrete(verify *t)
         memcpy(t->even + done, cloud->x, cloud->n * sizeof *cloud->x);
         done += cloud->n;
     }
-    qsort(t->even, samples, sizeof *t->even, verify_order);
+    buffon_priv_sort(t->even, samples);
     const double least = t->even[0], range = t->even[samples - 1] - least;
     if (!(range < 0x1p+20))
         return BUFFON_OK;

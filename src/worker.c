@@ -121,14 +121,10 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
 {
     const buffon_priv_plan *plan = worker->plan;
     const buffon_priv_problem *problem = plan->problem;
-    const size_t stratum = task->cell / (size_t)plan->shape.replicates;
+    const size_t stratum = task->cell / (size_t)plan->shape.per_stratum;
     const buffon_density *g = problem->stratum[stratum].g;
     double *x = buffon_priv_box_is(g) ? worker->u : worker->apart;
-    const buffon_points_block block = {.key = buffon_priv_plan_key(plan, task->cell),
-                                       .first = task->k * plan->shape.block,
-                                       .n = task->n,
-                                       .dim = g->uniforms + problem->extra,
-                                       .table = plan->table[task->cell]};
+    buffon_points_block block = buffon_priv_plan_block(plan, task->cell, task->k);
     const buffon_priv_batch batch = {.n = task->n,
                                      .x = x,
                                      .pdf = worker->pdf,
@@ -141,6 +137,7 @@ static buffon_status worker_evaluate(buffon_priv_worker *worker, const buffon_pr
     *bad = 0;
     *y = NULL;
     worker->x = x;
+    block.n = task->n;
     if (plan->points.fill(worker->u, &block, &plan->points) != 0)
         return BUFFON_E_POINTS;
     status = buffon_priv_density_result(
@@ -304,9 +301,8 @@ buffon_status buffon_priv_worker_block(buffon_priv_worker *worker, const buffon_
     if (status == BUFFON_E_POINTS || status == BUFFON_E_NOMEM) {
         worker->bad_index = UINT64_MAX; /* neither the integrand's nor the density's */
     } else if (status != BUFFON_OK) {
-        worker->bad_index =
-            (task->k * shape->block + bad) * shape->replicates + task->cell % shape->replicates;
-        worker->bad_stratum = task->cell / shape->replicates;
+        worker->bad_index = buffon_priv_plan_index(worker->plan, task->cell, task->k, bad);
+        worker->bad_stratum = task->cell / shape->per_stratum;
     }
     return status;
 }

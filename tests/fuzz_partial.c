@@ -89,12 +89,14 @@ static int fuzz_integrand(double *f, const double *x, size_t n, void *ctx)
     return 0;
 }
 
-/* Good bytes to start from: a finished run, a part, one with covariance and pairs, an empty one. */
+/* Good bytes to start from: a finished run, a part, one with covariance and pairs, an empty one, a
+ * net. */
 static void fuzz_seed(int which, const char *directory, buffon_rng *rng)
 {
     const double lo = 0, hi = 1;
     const buffon_integrand f = {.batch = fuzz_integrand, .dim = 1, .components = 2};
     const buffon_points pairs = buffon_points_antithetic();
+    const buffon_points net = buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN);
     buffon_partial p = {0};
     buffon_run run = {.samples = 1000, .block = 64, .partial = &p};
     buffon_estimate e[2];
@@ -105,8 +107,11 @@ static void fuzz_seed(int which, const char *directory, buffon_rng *rng)
     } else if (which == 2) {
         run.covariance = 1;
         run.points = &pairs;
+    } else if (which == 4) {
+        run.samples = 64;
+        run.points = &net;
     }
-    if (which < 3)
+    if (which != 3)
         status = buffon_uniform(e, &f, &lo, &hi, &run);
     const size_t size = buffon_partial_size(&p);
     uint8_t *bytes = malloc(size);
@@ -118,7 +123,7 @@ static void fuzz_seed(int which, const char *directory, buffon_rng *rng)
     LLVMFuzzerTestOneInput(bytes, size);
     tap_ok(fuzz_accepted == accepted + 2, "partial %d: what was saved is accepted, its checksum "
            "as this file computes it too", which);
-    fuzz_mutants(3000, bytes, size, rng);
+    fuzz_mutants(which < 4 ? 3000 : 500, bytes, size, rng);
     tap_ok(1, "partial %d: changed bytes do no harm", which);
     free(bytes);
     buffon_partial_free(&p);
@@ -130,7 +135,7 @@ int main(int argc, char **argv)
     buffon_rng rng = buffon_rng_make(1, 0);
     fuzz_random(3000, 8192, &rng);
     tap_ok(fuzz_accepted == 0, "random bytes are refused");
-    for (int which = 0; which < 4; which++)
+    for (int which = 0; which < 5; which++)
         fuzz_seed(which, argc > 1 ? argv[1] : NULL, &rng);
     tap_ok(fuzz_accepted > 1000 && fuzz_refused > 1000,
            "the checks behind the checksum were reached: %llu accepted, %llu refused",

@@ -228,6 +228,13 @@ static buffon_status problem_nonfinite(buffon_estimate *out, buffon_run run)
     return buffon_uniform(out, &f, &lo, &hi, &run);
 }
 
+static buffon_status problem_net(buffon_estimate *out, buffon_run run)
+{
+    const buffon_points points = buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN);
+    run.points = &points;
+    return problem_strata(out, run, BUFFON_ALLOCATION_SHARE);
+}
+
 PROBLEMS_UNUSED static const problem problems[] = {
     {"uniform", 1, 1e-2, problem_plain},
     {"three components", 3, 2e-2, problem_components},
@@ -242,6 +249,7 @@ PROBLEMS_UNUSED static const problem problems[] = {
     {"expectation on a disk", 1, 1e-2, problem_expectation},
     {"inverse CDF of a table", 1, 1e-2, problem_table},
     {"values that are not finite", 1, 3e-2, problem_nonfinite},
+    {"strata, a net in each", 1, 1e-4, problem_net},
 };
 
 enum { PROBLEMS = sizeof problems / sizeof problems[0] };

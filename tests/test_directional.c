@@ -66,7 +66,7 @@ static void circle(wide *c, wide *s, double t)
 }
 
 typedef struct errors {
-    worst across, height, drawn, given;
+    worst across, height, drawn, given, back;
 } errors;
 
 /* A point drawn about +z against the depth w and 2 - w that it should have. Allowed: ulp of x and
@@ -74,10 +74,11 @@ typedef struct errors {
 static void see_point(errors *e, const buffon_density *g, const double u[2], wide w, wide rest,
                       wide pdf, const double allowed[4])
 {
-    double x[3], got = NAN, again = NAN;
+    double x[3], v[2] = {NAN, NAN}, got = NAN, again = NAN;
     wide c, s;
     if (buffon_density_sample(x, &got, u, 1, g) != BUFFON_OK ||
-        buffon_density_pdf(&again, x, 1, g) != BUFFON_OK)
+        buffon_density_pdf(&again, x, 1, g) != BUFFON_OK ||
+        buffon_density_invert(v, x, 1, g) != BUFFON_OK)
         e->across.share = INFINITY;
     circle(&c, &s, u[1]);
     const wide sine = sqrtl(w) * sqrtl(rest);
@@ -86,6 +87,7 @@ static void see_point(errors *e, const buffon_density *g, const double u[2], wid
     see_near(&e->height, x[2], w < 1 ? 1 - w : rest - 1, allowed[1]);
     see(&e->drawn, got, pdf, allowed[2]);
     see(&e->given, again, pdf, allowed[3]);
+    see_near(&e->back, v[0], u[0], 0x1p-50);
 }
 
 /* g of every kind: 0 and near it, and as near to +-1 as doubles are. */
@@ -126,6 +128,7 @@ static void test_scatter(void)
     report(&e.height, "Henyey and Greenstein: z within 2^-50");
     report(&e.drawn, "Henyey and Greenstein: g along with the point within 10 ulp");
     report(&e.given, "Henyey and Greenstein: g at it within 16 ulp");
+    report(&e.back, "Henyey and Greenstein: back to u1 within 2^-50");
 }
 
 /* The law that the map is to have, by another way than the map: the textbook's distribution
@@ -209,6 +212,7 @@ static void test_fisher(void)
     report(&e.height, "von Mises and Fisher: z within 2^-51");
     report(&e.drawn, "von Mises and Fisher: g along with the point within 4 ulp");
     report(&e.given, "von Mises and Fisher: g at it within 8 + 4 kappa w ulp");
+    report(&e.back, "von Mises and Fisher: back to u1 within 2^-50");
 }
 
 /* Points far out, where the density itself is below the doubles. */
@@ -233,6 +237,130 @@ static void test_fisher_log(void)
     }
     report(&far, "von Mises and Fisher: log g within 4 ulp of its larger term");
     tap_ok(zero, "and g is 0 where it is below all doubles");
+}
+
+/* ---- the circle ---- */
+
+enum { NODES = 32 };
+
+static wide node[NODES], weight[NODES];
+
+/* Gauss's rule on (0, 1): the roots of Legendre's polynomial by Newton's method. */
+static void make_nodes(void)
+{
+    for (int i = 0; i < NODES; i++) {
+        wide z = cosl(WIDE_PI * (i + 0.75L) / (NODES + 0.5L)), slope = 1;
+        for (int step = 0; step < 8; step++) {
+            wide p = 1, before = 0;
+            for (int j = 0; j < NODES; j++) {
+                const wide next = ((2 * j + 1) * z * p - j * before) / (j + 1);
+                before = p;
+                p = next;
+            }
+            slope = NODES * (z * p - before) / (z * z - 1);
+            z -= p / slope;
+        }
+        node[i] = (1 - z) / 2;
+        weight[i] = 1 / ((1 - z * z) * slope * slope);
+    }
+}
+
+static wide half_sine(wide x)
+{
+    const wide s = sinl(x / 2);
+    return s * s;
+}
+
+/* The integral of exp(-2 kappa (sin^2(t/2) - square)) from a to b, cut in 12. */
+static wide wide_bell(double kappa, wide a, wide b, wide square)
+{
+    const wide step = (b - a) / 12;
+    wide sum = 0;
+    for (int piece = 0; piece < 12; piece++)
+        for (int j = 0; j < NODES; j++)
+            sum += weight[j] * step *
+                   expl(-2 * (wide)kappa * (half_sine(a + step * (piece + node[j])) - square));
+    return sum;
+}
+
+/* The integral over the circle without the factor: by even points, or for large kappa over what is
+ * not below exp(-60) of the peak. */
+static wide wide_circle(double kappa)
+{
+    wide sum = 0;
+    if (kappa > 100)
+        return 2 * wide_bell(kappa, 0, 2 * asinl(sqrtl(30 / (wide)kappa)), 0);
+    for (int i = 0; i < 256; i++)
+        sum += expl(-2 * (wide)kappa * half_sine(2 * WIDE_PI * i / 256));
+    return 2 * WIDE_PI * sum / 256;
+}
+
+/* How far x, beyond which lies the share p, is from where it should be: the missing mass over the
+ * density. */
+static wide mises_miss(double kappa, wide x, double p, wide whole)
+{
+    const wide square = half_sine(x),
+               want = p * expl(kappa * square) * expl(kappa * square) * whole;
+    if (p > 0.25)
+        return wide_bell(kappa, 0, x, square) - (0.5L - p) / p * want;
+    const wide end = square + 30 / (wide)kappa;
+    return want - wide_bell(kappa, x, end < 1 ? 2 * asinl(sqrtl(end)) : WIDE_PI, square);
+}
+
+static void test_mises(void)
+{
+    worst found = {0}, density = {0}, back = {0};
+    int mirrored = 1;
+    buffon_rng rng = buffon_rng_make(6, 70);
+    make_nodes();
+    for (int k = 0; k < 3000; k++) {
+        const double kappa = k % 2 ? any_kappa(&rng, k / 2) : ldexp(1, k % 32 - 8);
+        const buffon_density g = buffon_von_mises(kappa, 0);
+        const double v = 0.5 * grid(&rng, k),
+                     p = k % 5 ? v : ldexp(v, -(int)buffon_rng_below(&rng, 1020));
+        const double u[2] = {p, 1 - p};
+        const wide whole = wide_circle(kappa);
+        double x[2] = {NAN, NAN}, pdf[2] = {NAN, NAN}, again[2] = {NAN, NAN};
+        if (buffon_density_sample(x, pdf, u, 2, &g) != BUFFON_OK ||
+            buffon_density_invert(again, x, 2, &g) != BUFFON_OK)
+            found.share = INFINITY;
+        const wide y = 2 * (wide)kappa * half_sine(x[0]);
+        see_near(&found, (double)mises_miss(kappa, -(wide)x[0], p, whole), 0, -0x1p-48 * x[0]);
+        if (y < 700)
+            see(&density, pdf[0], expl(-y) / whole, 8 + 12 * (double)y);
+        /* The density of log p by x, times what is off in x. */
+        see_near(&back, again[0], p, 0x1p-46 * (p + pdf[0] * -x[0]) + 0x1p-1060);
+        see_near(&back, again[1], u[1], 0x1p-51 + 0x1p-46 * pdf[1] * fabs(x[1]));
+        mirrored &= 1 - p < 0.5 + p || x[1] == -x[0] || 1 - (1 - p) != p;
+    }
+    report(&found, "von Mises: x within 2^-48 of itself");
+    report(&density, "von Mises: g within 8 + 12 y ulp");
+    report(&back, "von Mises: back to u");
+    tap_ok(mirrored, "von Mises: points of u and 1 - u are mirrors");
+}
+
+/* Points keep their order, whatever their neighbours, and stay on the circle. */
+static void test_mises_order(void)
+{
+    enum { POINTS = 4096 };
+    static double u[POINTS], x[POINTS];
+    int ordered = 1, inside = 1;
+    for (int i = 0; i < POINTS; i++)
+        u[i] = i == 0 ? 0x1p-1074 : i == POINTS - 1 ? 1 - 0x1p-53 : (double)i / POINTS;
+    for (int k = 0; k < 40; k++) {
+        const double kappa = k ? ldexp(1, k - 20) : 0, mean = k % 2 ? 1e6 : 0;
+        const buffon_density g = buffon_von_mises(kappa, mean);
+        if (buffon_density_sample(x, NULL, u, POINTS, &g) != BUFFON_OK)
+            ordered = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double pdf = 0;
+            ordered &= i == 0 || x[i] >= x[i - 1];
+            inside &= fabs(x[i] - mean) <= 3.1415926535897931 + 0x1p-50 * mean;
+            inside &= buffon_density_pdf(&pdf, x + i, 1, &g) == BUFFON_OK && pdf > 0;
+        }
+    }
+    tap_ok(ordered, "von Mises: points keep their order");
+    tap_ok(inside, "von Mises: and stay within half a turn of the mean, with a density");
 }
 
 /* About any axis: unit vectors at the same angle from it, and back to the uniforms. */
@@ -333,6 +461,10 @@ static void test_refusals(void)
         refused_by_value(buffon_henyey_greenstein(no_g[k], up), BUFFON_E_SHAPE, "g");
     for (size_t k = 0; k < sizeof no_kappa / sizeof *no_kappa; k++)
         refused_by_value(buffon_von_mises_fisher(no_kappa[k], up), BUFFON_E_SHAPE, "kappa");
+    for (size_t k = 0; k < sizeof no_kappa / sizeof *no_kappa; k++)
+        refused_by_value(buffon_von_mises(no_kappa[k], 0), BUFFON_E_SHAPE, "kappa");
+    refused_by_value(buffon_von_mises(1, NAN), BUFFON_E_SHAPE, "a mean of NaN");
+    refused_by_value(buffon_von_mises(1, -0x1.0000000000001p40), BUFFON_E_SHAPE, "a mean far off");
     refused_by_value(buffon_henyey_greenstein(0.5, NULL), BUFFON_E_NULL, "no axis");
     refused_by_value(buffon_von_mises_fisher(2, NULL), BUFFON_E_NULL, "no axis");
     refused_by_value(buffon_henyey_greenstein(0.5, no_axis), BUFFON_E_SHAPE, "an axis of 0");
@@ -356,9 +488,11 @@ int main(void)
         test_scatter_law();
         test_fisher();
         test_fisher_log();
+        test_mises();
     } else {
         tap_ok(1, "formulas # SKIP long double is no wider than double");
     }
+    test_mises_order();
     test_turned();
     test_means();
     test_sphere();

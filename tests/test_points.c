@@ -284,7 +284,7 @@ static void test_replay_designs(void)
                b.std_error > 0 && isnan(c.std_error),
            "replay: the error is that of its design");
     tap_ok(buffon_uniform(&a, &g, lo, hi, &run) == BUFFON_E_POINTS, "replay: another dimension");
-    for (int design = -1; design < 6; design++) {
+    for (int design = -1; design < 8; design++) {
         points = buffon_points_replay(u, 1, 6, (buffon_design)design);
         const int known = design == 0 || design == 1 || design == 4;
         tap_ok((buffon_uniform(&a, &f, lo, hi, &run) == BUFFON_E_POINTS) == !known,

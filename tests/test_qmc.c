@@ -429,6 +429,7 @@ int main(void)
     const buffon_points owen = buffon_points_sobol(BUFFON_SCRAMBLE_OWEN);
     const buffon_points linear = buffon_points_sobol(BUFFON_SCRAMBLE_LINEAR);
     const buffon_points none = buffon_points_sobol(BUFFON_SCRAMBLE_NONE);
+    const buffon_points net = buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN);
     test_coverage();
     test_stopping(8);
     test_stopping(16);
@@ -439,6 +440,7 @@ int main(void)
     for (size_t k = 0; k < COUNT(solved); k++) {
         test_same(&solved[k], &owen, "Owen");
         test_same(&solved[k], &linear, "linear");
+        test_same(&solved[k], &net, "net");
     }
     test_same(&solved[0], &none, "none");
     test_reuse();

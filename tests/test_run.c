@@ -54,8 +54,9 @@ static void test_tolerance(const problem *p)
         good &=
             e->looks == 5 && (met || status == BUFFON_W_TOLERANCE || status == BUFFON_W_NONFINITE);
         good &= met == ((e->doubts & BUFFON_DOUBT(BUFFON_W_TOLERANCE)) == 0);
-        /* Point sets and strata round up, then blocks do; never beyond the next look. */
-        good &= j == 4 || e->samples < looks[j] + looks[j] / 2;
+        /* Point sets and strata round up, then blocks do; never beyond the next look. Each stratum
+         * of a net may round up to nearly twice its part. */
+        good &= j == 4 || e->samples < looks[j] + looks[j] / 2 || p->solve == problem_net;
         good &= e->samples >= least;
         places += e->samples > least;
         least = e->samples;

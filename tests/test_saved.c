@@ -47,9 +47,10 @@ static void test_round_trip(const problem *p)
     good &= buffon_partial_components(&loaded) == p->components;
     good &= buffon_partial_estimate(again, &loaded, 0) == status;
     good &= same_estimates(e, again, p->components);
-    /* The size is that of the problem, not of what is done. */
+    /* The size is that of the problem, not of what is done; a net's has to do with its samples. */
     good &= solve(&early, p, (buffon_run){.samples = 20, .seed = 1, .block = 256}) >= 0;
-    good &= buffon_partial_size(&early) == size;
+    good &= p->solve == problem_net ? buffon_partial_size(&early) < size
+                                    : buffon_partial_size(&early) == size;
     /* Loading frees what it replaces (seen by the sanitizers), and longer bytes are allowed. */
     unsigned char *longer = malloc(size + 9);
     if (longer == NULL)
@@ -240,7 +241,7 @@ static void test_forged(void)
         const char *name;
         size_t word;
         uint64_t value;
-    } shape[] = {{"kind", 4, 3},           {"design", 5, 5},
+    } shape[] = {{"kind", 4, 3},           {"design", 5, 6},
                  {"no components", 6, 0},  {"too many components", 6, (UINT64_C(1) << 20) + 1},
                  {"outputs", 7, 2},        {"covariance", 8, 2},
                  {"constant", 9, 2},       {"no strata", 10, 0},
@@ -276,6 +277,38 @@ static void test_forged(void)
     buffon_partial_free(&part);
 }
 
+/* A net of 2^8 points: the targets of its cells are the sizes of ranges and nothing else. */
+static void test_forged_net(void)
+{
+    enum { TARGET = 3 + 15 + 1, RANGES = 13 + 2 * 4 };
+    const buffon_points net = buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN);
+    buffon_partial partial = {0};
+    size_t size;
+    int refused = 1;
+    const buffon_status status =
+        solve(&partial, &problems[0],
+              (buffon_run){.samples = 256, .block = 1024, .points = &net, .parts = 1});
+    unsigned char *b = save(&partial, &size);
+    tap_ok(status >= 0 && word_at(b, 5) == BUFFON_DESIGN_NET && word_at(b, 11) == RANGES &&
+               word_at(b, TARGET) == 8 && word_at(b, TARGET + 1) == 2 &&
+               word_at(b, TARGET + RANGES - 1) == 32,
+           "a net to forge");
+    for (size_t r = 0; r < RANGES; r++) {
+        const uint64_t size_of_range = word_at(b, TARGET + r);
+        refused &= forged(b, size, TARGET + r, 0) &&
+                   forged(b, size, TARGET + r, size_of_range + 1) &&
+                   forged(b, size, TARGET + r, 2 * size_of_range) &&
+                   forged(b, size, TARGET + r, UINT64_MAX);
+    }
+    tap_ok(refused, "forged: sizes of ranges");
+    tap_ok(forged(b, size, 5, BUFFON_DESIGN_REPLICATES) == 0, "as replicates they would do");
+    for (uint64_t ranges = 0; ranges < 300; ranges++)
+        refused &= ranges == RANGES || forged(b, size, 11, ranges);
+    tap_ok(refused, "forged: their number");
+    free(b);
+    buffon_partial_free(&partial);
+}
+
 /* Three components with their products: every series must have the count of the first. */
 static void test_forged_series(void)
 {
@@ -301,6 +334,7 @@ int main(void)
     test_layout();
     test_damage();
     test_forged();
+    test_forged_net();
     test_forged_series();
     return tap_done();
 }

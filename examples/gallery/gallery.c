@@ -7,15 +7,18 @@
 #include "gallery.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+enum { GALLERY_ROOMS = 32 };
+
 typedef struct gallery {
     text cards, contents;
-    int groups, entries;
-    const char *failed; /* the entry in work */
+    int groups, entries, rooms;
+    void *room[GALLERY_ROOMS];
 } gallery;
 
 static const char gallery_style[] =
@@ -129,6 +132,17 @@ static void gallery_entry(gallery *page, const char *name, const char *caption, 
              g.ops->invert != NULL ? " &middot; inverse" : "");
 }
 
+/* Memory for a table, until the page is done. */
+static void *gallery_room(gallery *page, size_t bytes)
+{
+    if (page->rooms == GALLERY_ROOMS)
+        give_up("gallery", "too many tables");
+    return page->room[page->rooms++] = need_memory(bytes);
+}
+
+#define ROOM(name, bytes)           \
+    const size_t name##_size = bytes; \
+    void *const name = gallery_room(page, name##_size)
 #define GROUP(title, says) gallery_group(page, title, says)
 #define ENTRY(name, caption, view, ...) \
     gallery_entry(page, name, caption, view, #__VA_ARGS__, __VA_ARGS__)
@@ -137,6 +151,8 @@ static void gallery_fill(gallery *page)
 {
 #include "entries.h"
     text_put(&page->cards, "</div></section>\n");
+    while (page->rooms > 0)
+        free(page->room[--page->rooms]);
 }
 
 static void gallery_finish(const gallery *page, text *document)

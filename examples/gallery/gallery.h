@@ -10,7 +10,7 @@
 typedef struct view {
     enum { VIEW_LINE, VIEW_BARS, VIEW_PLANE, VIEW_SPHERE, VIEW_SPACE } kind;
     double a, b, c, d; /* what is seen */
-    int extra;         /* LINE: decades of a logarithmic scale; PLANE: the density is shaded */
+    int extra;         /* LINE: decades of a log scale; PLANE: shades; SPHERE: no net */
 } view;
 
 /* A law on the line: a histogram of points from lo to hi, and the density. */
@@ -25,6 +25,8 @@ typedef struct view {
 #define FIELD(left, right, low, high) ((view){VIEW_PLANE, left, right, low, high, 1})
 /* Directions: points on the unit sphere. */
 #define SPHERE ((view){VIEW_SPHERE, 0, 0, 0, 1, 0})
+/* The same without a net: where it would say little, and for solids in the unit sphere. */
+#define SKY ((view){VIEW_SPHERE, 0, 0, 0, 1, 1})
 /* A surface or a solid in space, seen from afar: what lies within r of (x, y, z). */
 #define SPACE(x, y, z, r) ((view){VIEW_SPACE, x, y, z, r, 0})
 

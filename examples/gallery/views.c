@@ -168,19 +168,25 @@ static void camera_point(double v[3], const double *x, size_t i, size_t n, const
         v[k] = k < g->dim ? x[k * n + i] : 0;
 }
 
-/* The image of one line of the square: uniform `across` runs, the other stays. It is lifted where
- * the map jumps, and drawn fainter behind. */
-static void view_net_line(text *out, const camera *c, const buffon_density *g, int across,
-                          double fixed)
+/* Between the ends of the unit interval, which laws without bounds would take to infinity. */
+static double view_within(double u)
+{
+    return fmin(fmax(u, 1e-4), 1 - 1e-4);
+}
+
+/* The image of a line of the square or cube of uniforms: the one at `across` runs, slowly near its
+ * ends, and the others stay. It is lifted where the map jumps, and drawn fainter behind. */
+static void view_net_line(text *out, const camera *c, const buffon_density *g, size_t across,
+                          const double *others)
 {
     enum { STEPS = 96 };
-    double u[2 * (STEPS + 1)], *x = need_memory(g->dim * (STEPS + 1) * sizeof *x);
+    double u[3 * (STEPS + 1)], *x = need_memory(g->dim * (STEPS + 1) * sizeof *x);
     double before[2] = {0, 0};
     int side = -1, drawn_x = 0, drawn_y = 0;
-    for (int i = 0; i <= STEPS; i++) {
-        u[across * (STEPS + 1) + i] = fmin(fmax((double)i / STEPS, 1e-9), 1 - 1e-9);
-        u[!across * (STEPS + 1) + i] = fixed;
-    }
+    for (int i = 0; i <= STEPS; i++)
+        for (size_t j = 0; j < g->uniforms; j++)
+            u[j * (STEPS + 1) + (size_t)i] =
+                view_within(j == across ? pow(sin(1.5707963 * i / STEPS), 2) : others[j]);
     gallery_check(buffon_density_sample(x, NULL, u, STEPS + 1, g), "a net");
     for (size_t i = 0; i <= STEPS; i++) {
         double v[3], at[2];
@@ -204,16 +210,21 @@ static void view_net_line(text *out, const camera *c, const buffon_density *g, i
     free(x);
 }
 
+/* The net of a surface; of a solid the twelve edges of the cube. */
 static void view_net(text *out, const camera *c, const buffon_density *g)
 {
-    if (g->uniforms != 2)
-        return;
     text_put(out, "<g transform=\"scale(.1)\">");
-    for (int k = 0; k <= VIEW_CELLS; k++) {
-        double fixed = fmin(fmax((double)k / VIEW_CELLS, 1e-9), 1 - 1e-9);
-        view_net_line(out, c, g, 0, fixed);
-        view_net_line(out, c, g, 1, fixed);
-    }
+    for (int k = 0; g->uniforms == 2 && k <= VIEW_CELLS; k++)
+        for (size_t across = 0; across < 2; across++) {
+            double at = (double)k / VIEW_CELLS, others[] = {at, at};
+            view_net_line(out, c, g, across, others);
+        }
+    for (int k = 0; g->uniforms == 3 && g->dim == 3 && k < 8; k++)
+        for (size_t across = 0; across < 3; across++) {
+            double others[] = {k & 1, k >> 1 & 1, k >> 2};
+            if (others[across] == 0)
+                view_net_line(out, c, g, across, others);
+        }
     text_put(out, "</g>");
 }
 
@@ -280,7 +291,7 @@ static void view_plane(text *out, const buffon_density *g, view v, const char *c
     }
     text_add(out, "<svg viewBox=\"0 0 %g %.0f\" role=\"img\" aria-label=\"Points in the plane\">",
              c.size[0], c.size[1]);
-    if (v.extra)
+    if (v.extra && g->dim == 2)
         view_shades(out, &c, g, v, class);
     else
         view_net(out, &c, g);
@@ -295,7 +306,9 @@ static void view_plane(text *out, const buffon_density *g, view v, const char *c
 /* Points of a surface or a solid; the nearer, the larger and darker. */
 static void view_space(text *out, const buffon_density *g, view v, const char *class)
 {
-    static const double size[] = {1.7, 1.9, 2.2, 2.5}, opacity[] = {0.3, 0.4, 0.75, 0.9};
+    static const double size[] = {1.7, 1.8, 1.9, 2, 2.1, 2.2, 2.4, 2.6};
+    static const double sphere[] = {0.28, 0.31, 0.35, 0.4, 0.7, 0.76, 0.83, 0.9};
+    static const double solid[] = {0.3, 0.38, 0.46, 0.54, 0.63, 0.72, 0.81, 0.9};
     text eye = {0};
     globe turned = globe_eye(&eye, VIEW_SIDE, 1, 24, -62);
     camera c = {.size = {VIEW_SIDE, VIEW_SIDE}, .middle = {VIEW_SIDE / 2, VIEW_SIDE / 2}};
@@ -314,7 +327,7 @@ static void view_space(text *out, const buffon_density *g, view v, const char *c
         double at[2], w[3];
         camera_point(w, x, i, VIEW_DOTS, g);
         double depth = camera_see(&c, w, at);
-        int layer = depth < -0.4 ? 0 : depth < 0 ? 1 : depth < 0.4 ? 2 : 3;
+        int layer = (int)fmin(fmax(4 * (depth + 1), 0), 7);
         if (hypot(at[0] - c.middle[0], at[1] - c.middle[1]) <= VIEW_SIDE)
             d[seen++] = (dot){(int)lround(10 * at[0]), (int)lround(10 * at[1]), layer};
     }
@@ -323,8 +336,9 @@ static void view_space(text *out, const buffon_density *g, view v, const char *c
     if (v.kind == VIEW_SPHERE)
         text_add(out, "<circle class=\"ball\" cx=\"%g\" cy=\"%g\" r=\"%g\"/>", c.middle[0],
                  c.middle[1], c.scale);
-    view_net(out, &c, g);
-    view_dots(out, class, d, seen, size, opacity);
+    if (!v.extra)
+        view_net(out, &c, g);
+    view_dots(out, class, d, seen, size, v.kind == VIEW_SPHERE ? sphere : solid);
     text_put(out, "</svg>\n");
     free(d);
     free(x);

@@ -6,6 +6,11 @@
  *     layer 2  inversion  exponential  normal
  *     layer 2  laws
  *     layer 2  mixture  truncated  affine
+ *     layer 2  density
+ *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
+ *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
+ *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -15,15 +20,23 @@
 #define BUFFON_BUFFON_H
 
 #include "affine.h"
+#include "alias.h"
 #include "api.h"
+#include "ball.h"
+#include "beta.h"
+#include "bilinear.h"
 #include "box.h"
 #include "cap.h"
+#include "cap_cosine.h"
 #include "cpu.h"
+#include "cylinder.h"
 #include "density.h"
 #include "directional.h"
 #include "disk.h"
+#include "environment.h"
 #include "estimate.h"
 #include "exponential.h"
+#include "gamma.h"
 #include "hemisphere.h"
 #include "importance.h"
 #include "integrand.h"
@@ -34,17 +47,25 @@
 #include "math.h"
 #include "mixture.h"
 #include "normal.h"
+#include "parallelogram.h"
 #include "partial.h"
+#include "piecewise.h"
 #include "points.h"
 #include "rejection.h"
 #include "rng.h"
+#include "rotation.h"
 #include "run.h"
+#include "simplex.h"
 #include "sobol.h"
 #include "sphere.h"
+#include "sphere_n.h"
+#include "spherical.h"
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
 #include "truncated.h"
+#include "student.h"
+#include "table.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"

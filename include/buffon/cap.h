@@ -45,8 +45,10 @@ BUFFON_API buffon_density buffon_cap_about(double cut, const double axis[3]);
  *
  *  In:      half_angle  in radians, 0 < half_angle <= pi
  *           axis[3]     finite, not zero
- *  Law, Draws, Exact, Returns: as buffon_cap_about. An angle below 2.2e-154, whose g would exceed
- *           the doubles, is refused too
+ *  Law, Draws, Returns: as buffon_cap_about. An angle below 2.2e-154, whose g would exceed the
+ *           doubles, is refused too
+ *  Exact:   as buffon_cap_about. From 1e-9 to pi, about +z: g, the height, the sine of a point and,
+ *           absolutely, its coordinates within 2^-50 (tests/test_round.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap_angle(double half_angle, const double axis[3]);
@@ -76,6 +78,67 @@ BUFFON_API buffon_density buffon_cap_height(double one_minus_cos, const double a
  */
 BUFFON_API buffon_density buffon_cap_of_sphere(const double from[3], const double centre[3],
                                                double radius);
+
+/** The uniform density on a zone: the part of the unit sphere between two planes z = z0 and z = z1.
+ *
+ *  In:      z0, z1   -1 <= z0 < z1 <= 1, along the axis
+ *           axis[3]  finite, not zero
+ *  Law:     1 - z = h0 + h u1 with h0 = 1 - z1 and h = z1 - z0, angle = 2 pi u2 about the axis.
+ *           g = 1 / (2 pi h) for unit vectors of the zone, 0 for others and where |x|^2 is further
+ *           than 2^-20 from 1. The edges count as inside, with 2^-50 to spare for rounding
+ *  Draws:   2
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE or BUFFON_E_NULL. A height h
+ *           below 2^-1022, whose g would exceed the doubles, is refused too
+ *  Exact:   about +z: x and y within 5 ulp, z within 2^-51, at any height and depth; about another
+ *           axis |x| within 2^-49 of 1 and the depth within 2^-50. g within 2^-51 of itself
+ *           (tests/test_round.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_zone(double z0, double z1, const double axis[3]);
+
+/** The zone between two angles from an axis: h = 2 sin((angle1 - angle0) / 2) sin((angle1 +
+ *  angle0) / 2), which keeps the digits of thin zones and of zones near a pole.
+ *
+ *  In:      angle0, angle1  in radians, 0 <= angle0 < angle1 <= pi
+ *           axis[3]         finite, not zero
+ *  Law, Draws, Returns: as buffon_zone
+ *  Exact:   about +z: x and y within 6 ulp, z within 2^-50; g within 2^-50 of itself, of the
+ *           thinnest zones and near both poles too (tests/test_round.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_zone_angles(double angle0, double angle1, const double axis[3]);
+
+/** The zone between two depths below the pole of an axis: z from 1 - h1 to 1 - h0.
+ *
+ *  In:      h0, h1   1 - cos of the angles from the axis, 0 <= h0 < h1 <= 2
+ *           axis[3]  finite, not zero
+ *  Law, Draws, Returns, Exact: as buffon_zone
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_zone_heights(double h0, double h1, const double axis[3]);
+
+/** All of the sphere but a cap of a given half angle.
+ *
+ *  In:      half_angle  of what is left out, in radians, 0 < half_angle <= pi
+ *           axis[3]     of what is left out
+ *  Law:     the zone from the edge of the cap to the opposite pole
+ *  Draws, Returns: as buffon_zone
+ *  Exact:   as buffon_zone_angles; the smallest cap is left out, and so is all but the smallest
+ *           (tests/test_round.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_complement_angle(double half_angle, const double axis[3]);
+
+/** All of the sphere but a cap of a given height.
+ *
+ *  In:      one_minus_cos  h = 1 - cos(half angle) of what is left out, 0 < h < 2
+ *           axis[3]        of what is left out
+ *  Law, Draws, Returns: as buffon_cap_complement_angle
+ *  Exact:   as buffon_zone
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_complement_height(double one_minus_cos,
+                                                       const double axis[3]);
 
 /** One point of the cap above z = cut: the same as from buffon_cap.
  *

@@ -1,4 +1,6 @@
-/* Layer 2. Directions above a plane: uniform, and with density proportional to the cosine. */
+/* Layer 2. Directions above a plane: uniform, and with density proportional to the cosine or to a
+ * power of it.
+ */
 #ifndef BUFFON_HEMISPHERE_H
 #define BUFFON_HEMISPHERE_H
 
@@ -54,6 +56,34 @@ BUFFON_API buffon_density buffon_hemisphere_cosine(void);
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_hemisphere_cosine_about(const double axis[3]);
+
+/** The density (n + 1) / (2 pi) cos^n(theta) on the hemisphere z > 0, theta the angle from +z: the
+ *  lobe of Phong's model, a spot of light. n = 0 is uniform, n = 1 the cosine.
+ *
+ *  In:      exponent  n from 0 to 1e15; it need not be whole
+ *  Law:     cos(theta) = (1 - u1)^(1 / (n + 1)), the inverse CDF of depth below the pole; angle
+ *           2 pi u2 about it. g is 0 where z <= 0 and where |x|^2 is further than 2^-20 from 1
+ *  Draws:   2
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE
+ *  Exact:   x and y within 5 ulp each, z and g along with the point within 4; g at a given point
+ *           within 5 + 3 n |log z| ulp where it is a normal double. buffon_density_log_pdf holds
+ *           everywhere (tests/test_round.c)
+ *  Source:  B. Phong (1975), Illumination for computer generated pictures
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_hemisphere_power(double exponent);
+
+/** The density (n + 1) / (2 pi) cos^n(theta) on the hemisphere about an axis.
+ *
+ *  In:      exponent  n from 0 to 1e15
+ *           axis[3]   any length but zero, finite
+ *  Law, Draws: as buffon_hemisphere_power, turned from +z to the axis
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL or BUFFON_E_SHAPE
+ *  Exact:   |x| within 2^-49 of 1; g along with the point as buffon_hemisphere_power, g at a given
+ *           point as far as its angle is known (tests/test_round.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_hemisphere_power_about(double exponent, const double axis[3]);
 
 /** One point of the uniform hemisphere: the same as from buffon_hemisphere.
  *

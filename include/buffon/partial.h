@@ -69,8 +69,9 @@ BUFFON_API size_t buffon_partial_components(const buffon_partial *partial);
 /** How many bytes buffon_partial_save writes.
  *
  *  In:      partial  an empty one has a size too
- *  Returns: depends on the problem alone (components, strata, replicates, parts), never on how much
- *           is done: every part of a run has the same size. 0 for NULL
+ *  Returns: depends on the problem alone (components, strata, replicates, parts; for a net its
+ *           samples too), never on how much is done: every part of a run has the same size. 0 for
+ *           NULL
  *  Since:   0.1
  */
 BUFFON_API size_t buffon_partial_size(const buffon_partial *partial);

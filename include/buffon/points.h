@@ -19,7 +19,13 @@ typedef enum buffon_design {
     BUFFON_DESIGN_ANTITHETIC = 1,  /* points 2i and 2i + 1 are a pair; pairs are independent */
     BUFFON_DESIGN_STRATIFIED = 2,  /* a pair shares a cell; `round` points visit every cell alike */
     BUFFON_DESIGN_REPLICATES = 3,  /* from the spread of the means of independent replicates */
-    BUFFON_DESIGN_NONE = 4         /* not random: no standard error */
+    BUFFON_DESIGN_NONE = 4,        /* not random: no standard error */
+    /* A net: all points of a stratum are one (of replicate 0), a power of two of them, 64 to 2^40,
+     * whether or not `doubling` says so. The error is the standard error of the means of the eight
+     * aligned blocks of an eighth, with 7 degrees of freedom. That is a rule of thumb: the blocks
+     * are not independent. It holds for points whose blocks are even and make up for each other,
+     * so that the whole is nearer than eight independent blocks would be. */
+    BUFFON_DESIGN_NET = 5
 } buffon_design;
 
 /** The stretch of points asked for: first, ..., first + n - 1 of one replicate. */
@@ -39,14 +45,15 @@ typedef struct buffon_points {
     /* Bytes of table that `prepare` wants for a dimension; NULL: none. SIZE_MAX: refused. */
     size_t (*table_size)(size_t dim, const struct buffon_points *self);
     /* Makes the table (aligned for any type) that `fill` then reads, once for each stratum and
-     * replicate of a run. Non-zero: failure. */
+     * replicate of a run (a net is one). Non-zero: failure. */
     int (*prepare)(const buffon_points_block *block, const struct buffon_points *self);
     /* Points come in multiples of this for a dimension (per replicate); NULL: 1. 0: not for that
      * dim. A run rounds its samples up to it. */
     uint64_t (*round)(size_t dim, const struct buffon_points *self);
     buffon_design design;
-    uint32_t replicates;  /* 1 to 256; 0 means 1. The samples of a run are spread over them */
-    uint64_t limit;       /* points that a replicate holds; 0: 2^64 */
+    uint32_t replicates;  /* 1 to 256; 0 means 1. The samples of a run are spread over them. A net
+                           * is one */
+    uint64_t limit;       /* points that a replicate holds; 0: 2^64, of a net 2^40 */
     const char *name;     /* tells point sets apart in partial results; NULL is allowed */
     uint64_t param[4];    /* the constructor's */
     const void *data;     /* the constructor's */

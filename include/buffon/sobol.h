@@ -69,6 +69,26 @@ typedef enum buffon_scramble {
  */
 BUFFON_API buffon_points buffon_points_sobol(buffon_scramble scramble);
 
+/** One net of Sobol' points, with an error bar from its own blocks: the fast mode. With a caller's
+ *  table: set `.design` = BUFFON_DESIGN_NET and `.replicates` = 1 in the value below.
+ *
+ *      const buffon_points net = buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN);
+ *
+ *  In:      scramble  as buffon_points_sobol
+ *  Law:     all samples are one net, with BUFFON_DESIGN_NET (points.h). The estimate is unbiased
+ *           and 1.3 to 20 times nearer than that of 8 replicates with as many samples, the
+ *           interval about as wide. The interval is a rule of thumb: with OWEN and 512 points or
+ *           more it covered 97 to 100 % instead of 95 % (docs/qmc.md). With LINEAR it can cover
+ *           less
+ *  Samples: a power of two, 64 to 2^40, in each stratum: `.samples` is rounded up to it
+ *  Refused: more than BUFFON_SOBOL_DIMENSIONS dimensions: BUFFON_E_POINTS
+ *  Cost:    1 kB for each dimension and stratum. A partial result has 4 m - 11 cells for 2^m points
+ *           in place of one: 3 kB each, for each component and stratum. Small ranges are evaluated
+ *           apart: some 50 us a run
+ *  Since:   0.1
+ */
+BUFFON_API buffon_points buffon_points_sobol_net(buffon_scramble scramble);
+
 /** The same with direction numbers of the caller's own: more dimensions, or another choice.
  *
  *  In:      scramble     as buffon_points_sobol

@@ -45,8 +45,10 @@
     X(BUFFON_E_LAW, -38, "points, pdf and inverse of the density do not agree")                   \
     X(BUFFON_E_MISMATCH, -48, "the partial results belong to different runs")                     \
     X(BUFFON_E_OVERLAP, -49, "the partial results hold the same block")                           \
-    X(BUFFON_E_CORRUPT, -50, "the saved partial result is damaged or is none")                    \
-    X(BUFFON_E_SIZE, -51, "the bytes are fewer than the partial result needs")                    \
+    X(BUFFON_E_CORRUPT, -50,                                                                      \
+      "the saved partial result or the table is damaged or is none")                              \
+    X(BUFFON_E_SIZE, -51,                                                                         \
+      "the bytes are fewer than the partial result or the table needs")                           \
     X(BUFFON_E_EMPTY, -52, "there is nothing here to estimate from")                              \
     X(BUFFON_W_CANCELLED, 1, "cancelled: the estimate is that of the blocks done")                \
     X(BUFFON_W_INCOMPLETE, 2, "incomplete: only some parts of the run are here")                  \

@@ -139,11 +139,12 @@ static double call(const double *x, void *ctx)
     return s->f(x, s->dim);
 }
 
-/* The root mean square of the errors over seeds, relative to the value. */
-static double error_of(const smooth *s, const buffon_points *with)
+/* The root mean squares over seeds of the errors and of the standard errors, relative to the value.
+ */
+static double error_of(double *bar, const smooth *s, const buffon_points *with)
 {
     static const double lo[MOST_DIM] = {0};
-    double hi[MOST_DIM], sum = 0;
+    double hi[MOST_DIM], sum = 0, bars = 0;
     for (size_t j = 0; j < MOST_DIM; j++)
         hi[j] = 1;
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
@@ -152,25 +153,29 @@ static double error_of(const smooth *s, const buffon_points *with)
         const buffon_run run = {.samples = SAMPLES, .seed = seed, .points = with};
         bench_must(buffon_uniform(&e, &f, lo, hi, &run));
         sum += pow(e.value / s->exact - 1, 2);
+        bars += pow(e.std_error / s->exact, 2);
     }
+    *bar = sqrt(bars / SEEDS);
     return sqrt(sum / SEEDS);
 }
 
 /* Random points, 8 replicates with the nested scramble and with the shift, one net with the nested
- * scramble and with the linear one. Leaves the gains over random points. */
+ * scramble and with the linear one; of the nets the error that they state, too. Leaves the gains
+ * over random points. */
 static void print_errors(double gain[KINDS], const smooth *s)
 {
     buffon_points with[KINDS] = {buffon_points_random(), buffon_points_sobol(BUFFON_SCRAMBLE_OWEN),
                                  buffon_points_sobol(BUFFON_SCRAMBLE_SHIFT),
-                                 buffon_points_sobol(BUFFON_SCRAMBLE_OWEN),
-                                 buffon_points_sobol(BUFFON_SCRAMBLE_LINEAR)};
-    double error[KINDS];
-    with[3].replicates = with[4].replicates = 1;
+                                 buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN),
+                                 buffon_points_sobol_net(BUFFON_SCRAMBLE_LINEAR)};
+    double error[KINDS], bar;
     printf("  %-26s d = %-3zu", s->name, s->dim);
     for (size_t k = 0; k < KINDS; k++) {
-        error[k] = error_of(s, &with[k]);
+        error[k] = error_of(&bar, s, &with[k]);
         gain[k] = error[0] / error[k];
         printf(k > 0 ? "  %8.1e %8.1fx" : "  %8.1e", error[k], gain[k]);
+        if (with[k].design == BUFFON_DESIGN_NET)
+            printf(" +- %.1e", bar);
     }
     printf("\n");
     fflush(stdout);
@@ -187,7 +192,7 @@ static void compare_errors(void)
 {
     double gain[KINDS], logs[KINDS] = {0};
     printf("\nrelative error at N = %d, rms over %d seeds, and how many times smaller than with "
-           "random points\n  %-34s  %8s  %18s  %18s  %18s  %18s\n",
+           "random points\n  %-34s  %8s  %18s  %18s  %29s  %29s\n",
            SAMPLES, SEEDS, "", "random", "8 replicates", "8, shift", "one net", "one, linear");
     for (size_t k = 0; k < COUNT(genz); k++) {
         print_errors(gain, &genz[k]);

@@ -34,6 +34,54 @@ OURS(concentric, buffon_disk_concentric(1))
 OURS(normal, buffon_normal(0, 1))
 OURS(exponential, buffon_exponential(1))
 
+/* A thousand items of very different weights. */
+enum { ITEMS = 1000 };
+static double item_weights[ITEMS];
+static uint64_t item_tables[2][4 * ITEMS];
+static buffon_density item_laws[2]; /* alias, guide */
+#ifdef BENCH_GSL
+static gsl_ran_discrete_t *gsl_items;
+#endif
+
+static void make_items(void)
+{
+    for (size_t k = 0; k < ITEMS; k++)
+        item_weights[k] = 1 / (double)(k + 1);
+    item_laws[0] = buffon_alias(item_tables[0], sizeof item_tables[0], item_weights, ITEMS);
+    item_laws[1] = buffon_guide(item_tables[1], sizeof item_tables[1], item_weights, ITEMS);
+#ifdef BENCH_GSL
+    gsl_items = gsl_ran_discrete_preproc(ITEMS, item_weights);
+#endif
+}
+
+static void free_items(void)
+{
+#ifdef BENCH_GSL
+    gsl_ran_discrete_free(gsl_items);
+#endif
+}
+
+static double ours_items(const buffon_density *g, size_t items)
+{
+    static buffon_rng rng;
+    static uint32_t index[TILE];
+    if (rng.next == 0)
+        rng = buffon_rng_make(1, 0);
+    for (size_t i = 0; i < items; i += TILE)
+        bench_must(buffon_alias_fill(index, TILE, g, &rng));
+    return index[1];
+}
+
+static double ours_alias(size_t items)
+{
+    return ours_items(&item_laws[0], items);
+}
+
+static double ours_guide(size_t items)
+{
+    return ours_items(&item_laws[1], items);
+}
+
 /* `call` makes the `step` next values at x. */
 #define LOOP(name, step, call)                                                                     \
     static double name(size_t items)                                                               \
@@ -65,12 +113,14 @@ LOOP(gsl_circle, 1, gsl_ran_dir_2d(gsl_mt, x, x + 1))
 LOOP(gsl_ziggurat, 1, x[0] = gsl_ran_gaussian_ziggurat(gsl_mt, 1))
 LOOP(gsl_gaussian, 1, x[0] = gsl_ran_gaussian(gsl_mt, 1))
 LOOP(gsl_exponential, 1, x[0] = gsl_ran_exponential(gsl_mt, 1))
+LOOP(gsl_discrete, 1, x[0] = (double)gsl_ran_discrete(gsl_mt, gsl_items))
 #else
 #define gsl_sphere NULL
 #define gsl_circle NULL
 #define gsl_ziggurat NULL
 #define gsl_gaussian NULL
 #define gsl_exponential NULL
+#define gsl_discrete NULL
 #endif
 
 static void bench_shapes(void)
@@ -111,9 +161,15 @@ static void bench_laws(void)
         {"plain, libm", plain_exponential, {0}},
         {"GSL gsl_ran_exponential", gsl_exponential, {0, 0, 0, 8}},
     };
+    const bench_peer alias[] = {{"GSL gsl_ran_discrete", gsl_discrete, {6, 6, 6, 6}}};
+    const bench_peer guide[] = {{"GSL gsl_ran_discrete", gsl_discrete, {0}}};
+    make_items();
     bench_header("ns per value");
     bench_group("normal", ours_normal, normal, COUNT(normal));
     bench_group("exponential", ours_exponential, exponential, COUNT(exponential));
+    bench_group("1000 items, alias", ours_alias, alias, COUNT(alias));
+    bench_group("1000 items, guide table", ours_guide, guide, COUNT(guide));
+    free_items();
 }
 
 #endif
