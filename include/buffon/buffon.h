@@ -2,15 +2,12 @@
  *
  *     layer 0  api  version  status  cpu
  *     layer 1  math  rng  stats  estimate  interval  integrand  points  sobol  partial
- *     layer 2  density  box  disk  sphere  cap  hemisphere  directional
- *     layer 2  inversion  exponential  normal
- *     layer 2  laws
- *     layer 2  mixture  truncated  affine
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
  *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
  *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
