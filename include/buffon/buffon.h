@@ -5,7 +5,7 @@
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
- *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student  counts
  *     layer 2  table  alias  piecewise  bilinear  environment
  *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
@@ -25,6 +25,7 @@
 #include "box.h"
 #include "cap.h"
 #include "cap_cosine.h"
+#include "counts.h"
 #include "cpu.h"
 #include "cylinder.h"
 #include "density.h"
@@ -63,6 +64,7 @@
 #include "truncated.h"
 #include "student.h"
 #include "table.h"
+#include "truncated.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"
