@@ -27,11 +27,6 @@ ENTRY("Tent", "The sum of two uniforms, and the filter of a camera.", LINE(-2.5,
 ENTRY("Exponential", "Waiting times, and distances between collisions.", LINE(0, 5),
       buffon_exponential(1));
 
-ENTRY("Normal, bounded", "A normal variate that is known to lie between -1 and 2.",
-      LINE(-2, 3), buffon_normal_truncated(0, 1, -1, 2));
-
-ENTRY("Lognormal", "Products of many small factors.", LINE(0, 6), buffon_lognormal(0.3, 0.6));
-
 ENTRY("Exponential, bounded", "Where in a slab of fog light is scattered.", LINE(-0.5, 3.5),
       buffon_exponential_truncated(0.8, 0, 3));
 
@@ -246,15 +241,6 @@ ENTRY("Ball of twenty dimensions", "Two of its coordinates: nearly normal.",
 const buffon_density normals[] = {buffon_normal(0, 1), buffon_normal(0, 0.5)};
 ENTRY("Product of two normals", "Independent coordinates, each by its own law.",
       FIELD(-3, 3, -3, 3), buffon_density_product(normals, 2));
-
-const buffon_density broad[] = {buffon_normal(0, 0.5), buffon_cauchy(1, 2)};
-const double mostly[] = {0.8, 0.2};
-ENTRY("Defensive mixture", "A narrow normal law and a share of a broad one.", TAILS(-10, 10, 4),
-      buffon_mixture(broad, mostly, 2));
-
-const double rows[] = {0.9, 0.4, -0.2, 0.5};
-ENTRY("Normals by a matrix", "Correlated: an affine image of a product.", FIELD(-3, 3, -3, 3),
-      buffon_affine((const buffon_density[]){buffon_density_product(normals, 2)}, rows, NULL));
 
 const buffon_density round[] = {buffon_disk(0.7), buffon_segment(-0.8, 0.8)};
 const buffon_density bell = buffon_density_product(normals, 2);

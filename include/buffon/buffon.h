@@ -61,7 +61,6 @@
 #include "stats.h"
 #include "status.h"
 #include "stratified.h"
-#include "truncated.h"
 #include "student.h"
 #include "table.h"
 #include "truncated.h"
