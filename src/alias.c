@@ -209,11 +209,14 @@ static buffon_status alias_shares(uint64_t *bound, const double *weight, size_t 
     return buffon_priv_shares_make(bound, count, sum);
 }
 
+/* Copied, as words stood there before, which a compiler may take for other memory. */
 static void alias_normalise(double *pmf, const double *weight, size_t count,
                             const buffon_priv_shares *sum)
 {
-    for (size_t k = 0; k < count; k++)
-        pmf[k] = shares_of(sum, weight[k]);
+    for (size_t k = 0; k < count; k++) {
+        const double p = shares_of(sum, weight[k]);
+        memcpy(pmf + k, &p, sizeof p);
+    }
 }
 
 /* While the bins are made the bounds stand where the probabilities come to stand. */

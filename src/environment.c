@@ -49,24 +49,26 @@ size_t buffon_environment_size(size_t width, size_t height)
 
 /* ---- drawing ------------------------------------------------------------------------------- */
 
-/* What is above x, or below it: whatever rounding says, between lo and hi. */
 static double environment_between(double x, double lo, double hi)
 {
-    return x < lo ? lo : x < hi ? x : hi;
+    const double above = x < lo ? lo : x;
+    return above < hi ? above : hi;
 }
 
 /* The height of a point of row r from the nearer pole: so far into the row from above, and with so
- * much of it left. South tells which pole. */
-static double environment_height(const environment_map *map, size_t r, double into, double left,
-                                 int *south)
+ * much of it left. z says which pole that is. No branches: half of them would be mispredicted. */
+static double environment_height(double *z, const environment_map *map, size_t r, double into,
+                                 double left)
 {
     const size_t mirror = map->sheet.rows - 1 - r;
     const double north = map->depth[r] + into * map->band[r];
-    const double below = map->depth[mirror] + left * map->band[r];
-    const size_t row = north < below ? r : mirror;
-    *south = !(north < below);
-    return environment_between(*south ? below : north, map->depth[row] * (1 + ENVIRONMENT_ASIDE),
-                               map->depth[row + 1] * (1 - ENVIRONMENT_ASIDE));
+    const double south = map->depth[mirror] + left * map->band[r];
+    const size_t row = r ^ ((r ^ mirror) & (0 - (size_t)(south < north)));
+    const double height = environment_between(south < north ? south : north,
+                                              map->depth[row] * (1 + ENVIRONMENT_ASIDE),
+                                              map->depth[row + 1] * (1 - ENVIRONMENT_ASIDE));
+    *z = buffon_priv_copysign(1 - height, south - north);
+    return height;
 }
 
 /* Angles in units of pi, sines of the angle from the pole, z and g of a tile. */
@@ -79,16 +81,14 @@ static void environment_find(double *angle, double *sine, double *z, double *pdf
     buffon_priv_sheet_find(row, column, u1, u2, n, sheet);
     for (size_t i = 0; i < n; i++) {
         double above, rest, left, right;
-        int south;
         const uint64_t down = shares_unit(&above, u2[i]), unit = shares_unit(&rest, u1[i]);
         const size_t r = row[i], c = column[i];
         const uint64_t *bound = sheet_columns(sheet, r);
         const double into = shares_into(&left, sheet->row, r, down, above);
         const double across = shares_into(&right, bound, c, unit, rest);
-        const double height = environment_height(map, r, into, left, &south);
+        const double height = environment_height(&z[i], map, r, into, left);
         angle[i] = 2 * ((double)c + environment_between(across, aside, 1 - aside)) / columns;
         sine[i] = sqrt(height * (2 - height));
-        z[i] = south ? height - 1 : 1 - height;
         if (pdf)
             pdf[i] = map->level[r] * shares_mass(bound, c);
     }

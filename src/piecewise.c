@@ -187,8 +187,7 @@ static int piecewise_unmap_lines(double *u, const double *x, size_t n, const buf
         const double lo = line.edge[k], hi = line.edge[k + 1], width = hi - lo;
         const double a = line.g[k], b = line.g[k + 1];
         /* A piece of height 0 has its one uniform. */
-        const double t =
-            a + b > 0 ? ramp_mass(a, b, (x[i] - lo) / width, (hi - x[i]) / width) : 0;
+        const double t = a + b > 0 ? ramp_mass(a, b, (x[i] - lo) / width, (hi - x[i]) / width) : 0;
         u[i] = density_open(shares_uniform(line.bound, k, t));
     }
     return 0;
@@ -214,7 +213,7 @@ static int piecewise_edges(piecewise_line *line, const double *edge)
     return e;
 }
 
-/* Copies the heights, scaled by a power of two so that the largest is in [1/2, 1). Non-zero: not
+/* Copies the heights, scaled by a power of two so that their sums are in range. Non-zero: not
  * usable. */
 static int piecewise_heights(double *out, const double *height, size_t count)
 {

@@ -9,9 +9,8 @@ int buffon_priv_shares_scale(buffon_priv_shares *sum, double most)
 {
     int e;
     buffon_priv_frexp(&e, most);
-    sum->exponent = e;
-    sum->scale = buffon_priv_ldexp(1, e < -1000 ? 1000 : -e);
-    sum->more = buffon_priv_ldexp(1, e < -1000 ? -e - 1000 : 0);
+    sum->exponent = e < -1000 ? -1000 : e;
+    sum->scale = buffon_priv_ldexp(1, -sum->exponent);
     return !(most > 0);
 }
 

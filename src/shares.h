@@ -19,11 +19,12 @@
 #define SHARES_WHOLE (UINT64_C(1) << 62)
 #define SHARES_MOST ((size_t)INT32_MAX)
 
-/* What masses add up to. They are scaled by powers of two to have their largest in [1/2, 1). */
+/* What masses add up to. They are scaled by a power of two to have their largest in [1/2, 1), or
+ * from 2^-74 on where all are subnormal or next to that. */
 typedef struct buffon_priv_shares {
-    double scale, more; /* a mass times both is scaled */
-    double all;         /* the sum of the scaled masses */
-    int exponent;       /* the sum itself is all 2^exponent */
+    double scale; /* a mass times it is scaled */
+    double all;   /* the sum of the scaled masses */
+    int exponent; /* the sum itself is all 2^exponent */
 } buffon_priv_shares;
 
 /* bound[0..count] from the masses, whose bits are in bound[1..count]. BUFFON_E_SHAPE unless all are
@@ -33,13 +34,12 @@ buffon_status buffon_priv_shares_make(uint64_t *bound, size_t count, buffon_priv
 /* The largest of them, or -1 unless all are finite and none negative. */
 double buffon_priv_largest(const double *mass, size_t count);
 
-/* The scale for a largest mass, in two steps, as what lifts 2^-1074 to 1 is no double. Non-zero
- * where nothing is positive. */
+/* The scale for a largest mass. Non-zero where nothing is positive. */
 int buffon_priv_shares_scale(buffon_priv_shares *sum, double most);
 
 static inline double shares_scaled(const buffon_priv_shares *sum, double mass)
 {
-    return mass * sum->scale * sum->more;
+    return mass * sum->scale;
 }
 
 /* The part of the whole that a mass is, within 2 ulp. */
@@ -61,7 +61,8 @@ void buffon_priv_guide_make(uint32_t *first, unsigned bits, const uint64_t *boun
  * What is no uniform gives some unit all the same, as tables are read by it. */
 static inline uint64_t shares_unit(double *rest, double u)
 {
-    const double least = u > 0 ? u : 0, t = 0x1p62 * (least < 1 ? least : 1 - 0x1p-53);
+    const double most = 1 - 0x1p-53, above = u > 0 ? u : 0;
+    const double t = 0x1p62 * (above < most ? above : most);
     const int64_t unit = (int64_t)t;
     *rest = t - (double)unit;
     return (uint64_t)unit;

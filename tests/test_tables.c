@@ -195,6 +195,26 @@ static void test_tents(void)
     tap_ok(good, "ramps: sqrt(u) and 1 - sqrt(1 - u)");
 }
 
+/* Pieces of a few doubles: rounding leads to their ends, but not beyond. */
+static void test_slivers(void)
+{
+    const double eps = DBL_EPSILON, e[] = {1, 1 + 2 * eps, 1 + 3 * eps, 1 + 5 * eps, 2};
+    const double steps[] = {1 / eps, 0, 1 / eps, 1}, lines[] = {0, 1, 0, 1, 0};
+    const buffon_density g[] = {buffon_piecewise_constant(block, sizeof block, e, steps, 4),
+                                buffon_piecewise_linear(moved, sizeof moved, e, lines, 5)};
+    buffon_rng rng = buffon_rng_make(9, 42);
+    for (int t = 0; t < 2; t++) {
+        int good = g[t].status == BUFFON_OK;
+        for (int i = 0; i < 4000; i++) {
+            const double v = grid(&rng, i), u = t && i % 2 ? 0x1p-52 * (1 + v) : v;
+            double x, pdf, again;
+            good &= buffon_density_sample(&x, &pdf, &u, 1, &g[t]) == BUFFON_OK && pdf > 0;
+            good &= buffon_density_pdf(&again, &x, 1, &g[t]) == BUFFON_OK && pdf == again;
+        }
+        tap_ok(good, "%s: pieces of two doubles", g[t].ops->name);
+    }
+}
+
 /* Equal pieces are found by arithmetic, others by halving: they are the same. */
 static void test_even(void)
 {
@@ -262,6 +282,7 @@ static void test_no_uniforms(void)
 
 static void see_grid(const char *name, size_t columns, size_t rows, buffon_rng *rng)
 {
+    memset(block, 0xa5, sizeof block);
     const buffon_density g = buffon_piecewise_grid(block, sizeof block, height, columns, rows);
     double off = 0, pdf_off = 0, back = 0;
     int support = g.status == BUFFON_OK, agree = 1;
@@ -306,6 +327,13 @@ static void see_grid(const char *name, size_t columns, size_t rows, buffon_rng *
                                    (0x1p-52 + (double)(here * (wide)columns / row[r]) * ulp(x[0])),
                                fabs(v[1] - u[1]) /
                                    (0x1p-52 + (double)(row[r] * (wide)rows / total) * ulp(x[1]))));
+    }
+    for (size_t k = 0; k < columns * rows && support; k++) {
+        const double x[2] = {((double)(k % columns) + 0.5) / (double)columns,
+                             ((double)(k / columns) + 0.5) / (double)rows};
+        double pdf;
+        support &= buffon_density_pdf(&pdf, x, 1, &g) == BUFFON_OK;
+        support &= height[k] > 0 ? pdf >= 0 : pdf == 0;
     }
     tap_ok(support, "grid, %s: points lie where g is positive", name);
     tap_ok(agree, "grid, %s: the pdf of a sample is that at its point", name);
@@ -406,13 +434,15 @@ static void test_bilinear(void)
  * each row is worth, and the whole. */
 typedef struct sky {
     size_t width, rows;
-    wide depth[65], band[64], row[64], total;
+    wide depth[MOST + 1], band[MOST], row[MOST], total;
 } sky;
 
 static void look_up(sky *s, size_t width, size_t rows)
 {
     const wide step = WIDE_PI / (2 * (wide)rows);
-    *s = (sky){.width = width, .rows = rows};
+    memset(s, 0, sizeof *s);
+    s->width = width;
+    s->rows = rows;
     for (size_t r = 0; r <= rows; r++)
         s->depth[r] = 2 * sinl(step * (wide)r) * sinl(step * (wide)r);
     for (size_t r = 0; r < rows; r++) {
@@ -424,7 +454,7 @@ static void look_up(sky *s, size_t width, size_t rows)
 }
 
 typedef struct sky_errors {
-    double across, down, pdf, length, pole;
+    double across, down, pdf, length, near;
 } sky_errors;
 
 /* A direction's longitude and height say by their F which uniforms they are worth. */
@@ -458,22 +488,26 @@ static int see_direction(sky_errors *e, const double *x, double pdf, const doubl
         0x1p-63 * (double)(exact * (s->row[r] / here + s->total / (s->row[r] * s->band[r])));
     e->pdf = fmax(e->pdf, (double)fabsl(pdf - exact) / (ulp(exact) + slack));
     e->length = fmax(e->length, (double)fabsl(square + (wide)x[2] * x[2] - 1) / 0x1p-52);
-    /* In the first row the height itself keeps its digits. */
-    if (r == 0 && s->rows > 1)
-        e->pole = fmax(e->pole, (double)fabsl(near * s->row[0] / (u[1] * s->total) - 1) / 0x1p-52);
+    /* The height from the nearer pole that u2 stands for; a unit of 2^-62 shows in thin rows. */
+    const wide worth =
+        x[2] < 0 ? s->depth[s->rows - 1 - r] + ((b - u[1] * s->total) / s->row[r] + s->band[r])
+                 : s->depth[r] + (u[1] * s->total - b) / s->row[r];
+    const wide grain = 0x1p-52L * worth + 0x1p-60L * s->total / s->row[r];
+    e->near = fmax(e->near, (double)(fabsl(near - worth) / grain));
     return 1;
 }
 
-static void see_sky(const char *name, size_t width, size_t rows, buffon_rng *rng)
+static void see_sky(const char *name, size_t width, size_t rows, int draws, buffon_rng *rng)
 {
     static sky s;
     static float image[MOST + 1];
+    memset(block, 0xa5, sizeof block);
     const buffon_density g = buffon_environment(block, sizeof block, height, width, rows);
     sky_errors e = {0};
     double back = 0;
     int support = g.status == BUFFON_OK, agree = 1;
     look_up(&s, width, rows);
-    for (int i = 0; i < DRAWS / 2 && support; i++) {
+    for (int i = 0; i < draws && support; i++) {
         double u[2], x[3], pdf, again, v[2];
         grid_pair(u, rng, i);
         support &= buffon_density_sample(x, &pdf, u, 1, &g) == BUFFON_OK && pdf > 0;
@@ -485,11 +519,19 @@ static void see_sky(const char *name, size_t width, size_t rows, buffon_rng *rng
             fmax(back, fmax(fabs(u[0] - v[0]) * 2 * 3.1415926535897931 / 0x1p-52 / (1 + 800 * pdf),
                             fabs(u[1] - v[1]) / 0x1p-52 / 64));
     }
+    for (size_t k = 0; k < width * rows && support; k++) {
+        const double turn = 2 * 3.1415926535897931 * ((double)(k % width) + 0.5) / (double)width;
+        const double angle = 3.1415926535897931 * ((double)(k / width) + 0.5) / (double)rows;
+        const double x[3] = {sin(angle) * cos(turn), sin(angle) * sin(turn), cos(angle)};
+        double pdf;
+        support &= buffon_density_pdf(&pdf, x, 1, &g) == BUFFON_OK;
+        support &= height[k] > 0 ? pdf >= 0 : pdf == 0;
+    }
     tap_ok(support, "sky, %s: no direction is dark", name);
     tap_ok(agree, "sky, %s: the pdf of a sample is that in its direction", name);
     at_most(e.across, 16, name, "longitude");
     at_most(e.down, 16, name, "height");
-    at_most(e.pole, 16, name, "distance from the north pole");
+    at_most(e.near, 20, name, "height from the nearer pole");
     at_most(e.length, 4, name, "length");
     at_most(e.pdf, 6, name, "pdf");
     at_most(back, 20, name, "and back");
@@ -512,20 +554,24 @@ static void test_sky(void)
 {
     buffon_rng rng = buffon_rng_make(6, 42);
     fill(MOST, 2, 1, 1, &rng);
-    see_sky("60 by 30", 60, 30, &rng);
+    see_sky("60 by 30", 60, 30, DRAWS / 2, &rng);
+    fill(MOST, 2, 1, 1, &rng);
+    memset(height + 3, 0, (1999 - 6) * sizeof *height);
+    height[0] = height[1998] = 1;
+    see_sky("1 by 1999, the poles", 1, 1999, DRAWS / 20, &rng);
     fill(MOST, 30, 1, 1, &rng);
     for (size_t c = 0; c < 31; c++)
         height[3 * 31 + c] = 0;
-    see_sky("31 by 17, uneven, with a dark row", 31, 17, &rng);
+    see_sky("31 by 17, uneven, with a dark row", 31, 17, DRAWS / 2, &rng);
     fill(MOST, 2, 1, DBL_MAX, &rng);
-    see_sky("5 by 3, very bright", 5, 3, &rng);
+    see_sky("5 by 3, very bright", 5, 3, DRAWS / 2, &rng);
     memset(height, 0, sizeof height);
     height[20] = 1e-310;
-    see_sky("one pixel of 8 by 8", 8, 8, &rng);
+    see_sky("one pixel of 8 by 8", 8, 8, DRAWS / 2, &rng);
     height[0] = height[1] = height[2] = 3;
-    see_sky("1 by 1", 1, 1, &rng);
-    see_sky("1 by 2", 1, 2, &rng);
-    see_sky("3 by 1", 3, 1, &rng);
+    see_sky("1 by 1", 1, 1, DRAWS / 2, &rng);
+    see_sky("1 by 2", 1, 2, DRAWS / 2, &rng);
+    see_sky("3 by 1", 3, 1, DRAWS / 2, &rng);
 }
 
 /* Even light is the uniform law of the sphere. */
@@ -677,6 +723,7 @@ int main(void)
 {
     test_lines();
     test_tents();
+    test_slivers();
     test_even();
     test_no_uniforms();
     test_grid();

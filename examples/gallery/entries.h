@@ -37,11 +37,19 @@ ENTRY("Normal", "Sums of many small things.", LINE(-4, 4), buffon_normal(0, 1));
 ENTRY("Normal, its tails", "The same on a logarithmic scale: a parabola.", TAILS(-4.5, 4.5, 6),
       buffon_normal(0, 1));
 
+ENTRY("Normal, bounded", "However far out the bounds are.", LINE(3, 5),
+      buffon_normal_truncated(0, 1, 3.25, 4.5));
+
+ENTRY("Lognormal", "Products of many small things.", LINE(0, 6), buffon_lognormal(0, 0.7));
+
 ENTRY("Logistic", "Like the normal, with the tails of an exponential.", TAILS(-12, 12, 6),
       buffon_logistic(0, 1));
 
 ENTRY("Cauchy", "Where a spun lamp hits a wall: it has no mean.", TAILS(-60, 60, 4),
       buffon_cauchy(0, 1));
+
+ENTRY("Student", "The mean of few normals over its error; its intervals are this library's.",
+      TAILS(-12, 12, 5), buffon_student_t(3));
 
 ENTRY("Power", "A power of x between bounds, infinite or not at its end.", LINE(0, 2),
       buffon_power(1.5, 0, 2));
@@ -54,6 +62,9 @@ ENTRY("Gamma", "The wait for several events.", LINE(0, 10), buffon_gamma(2.5, 1)
 
 ENTRY("Chi-square", "Sums of squares of normals; of one, with a pole at 0.", LINE(0, 6),
       buffon_chi_square(1));
+
+ENTRY("Beta", "A share between 0 and 1; here with poles at both ends.", LINE(0, 1),
+      buffon_beta(0.6, 0.8));
 
 ENTRY("von Mises", "The normal law of angles: kappa is how much they agree.", LINE(-3.3, 3.3),
       buffon_von_mises(2, 0));
@@ -111,16 +122,14 @@ ENTRY("Alias table", "Any weights, in constant time, by bits that are exact.", B
 ROOM(guide, buffon_guide_size(12));
 ENTRY("Guide table", "The same weights by inversion: items keep their order.", BARS(0, 11),
       buffon_guide(guide, guide_size, odds, 12));
-static uint64_t room[5][512];
-const double heights[] = {0.2, 0.9, 0.5, 0, 0.7, 0.3};
-ENTRY("Steps", "A histogram; what has height 0 is never drawn.", LINE(-0.1, 1.1),
-      buffon_piecewise_constant(room[0], sizeof room[0], NULL, heights, 6));
 
-ENTRY("Straight lines", "Heights at a few points, and straight lines between them.",
-      LINE(-0.1, 1.1), buffon_piecewise_linear(room[1], sizeof room[1], NULL, heights, 6));
+ENTRY("Bernoulli", "Yes or no.", BARS(0, 1), buffon_bernoulli(0.3));
 
-ENTRY("Weights", "One of a number of items by their weights, in constant time.", BARS(0, 5),
-      buffon_alias(room[2], sizeof room[2], heights, 6));
+ENTRY("Binomial", "How many of n are yes.", BARS(0, 20), buffon_binomial(20, 0.4));
+
+ENTRY("Geometric", "How many noes before the first yes.", BARS(0, 16), buffon_geometric(0.25));
+
+ENTRY("Poisson", "Counts of rare things: clicks, calls, photons.", BARS(0, 14), buffon_poisson(4.5));
 
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
@@ -147,14 +156,8 @@ ENTRY("Sector", "Between two circles and two angles.", PLANE(-1.1, 1.1, -1.1, 1.
 ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellipse(1, 0.5));
 
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
-ENTRY("Triangle in the plane", "Low distortion: no corner is pinched.", PLANE(-1.1, 1.1, -1.1, 1.1),
+ENTRY("Triangle in the plane", "Three corners, every point alike.", PLANE(-1.1, 1.1, -1.1, 1.1),
       buffon_triangle_flat(west, east, north));
-ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
-      buffon_bilinear(1, 4, 3, 0));
-
-const double pixels[] = {1, 0, 3, 1, 2, 1, 0, 2, 6, 3, 2, 0, 1, 2, 1, 0};
-ENTRY("Grid", "An image: cells, each of its own height.", FIELD(-0.1, 1.1, -0.1, 1.1),
-      buffon_piecewise_grid(room[3], sizeof room[3], pixels, 4, 4));
 
 /* ---- directions ---- */
 GROUP("Directions", "Unit vectors; the density is by solid angle.");
@@ -181,6 +184,21 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
+
+const double low_lamp[] = {3, -2.5, 0.8};
+ENTRY("Cosine cap", "What a lamp near the horizon gives a surface: its cosine, nothing below.",
+      SPHERE, buffon_cap_cosine(0.8, low_lamp, up));
+
+const double eye[] = {0, 0, 0}, p[] = {2, -1, 2}, q[] = {-1, -2, 0.5}, r[] = {1.5, -2, -0.7};
+ENTRY("Spherical triangle", "The directions in which a triangle is seen, by solid angle.", SPHERE,
+      buffon_spherical_triangle(eye, p, q, r));
+
+const double qp[] = {2, 1, 0}, qr[] = {0.4, -0.8, -1.6};
+ENTRY("Spherical rectangle", "The directions in which a rectangular lamp is seen.", SPHERE,
+      buffon_spherical_rectangle(eye, q, qp, qr));
+
+ENTRY("Rotations", "All alike: each hair is where a turn takes the pole, and points where x went.",
+      FRAMES, buffon_rotation());
 
 /* ---- shapes in space ---- */
 GROUP("Shapes in space", "Seen from afar; what is further off is fainter.");
@@ -212,7 +230,7 @@ ENTRY("Ball", "By volume.", SKY, buffon_ball(1));
 ENTRY("Shell", "Between two spheres.", SKY, buffon_shell(0.9, 1));
 
 /* ---- more dimensions ---- */
-GROUP("More dimensions", "Two coordinates of many, or all of three.");
+GROUP("Many dimensions, and densities of densities", "Two coordinates are shown of many.");
 
 ENTRY("Sphere of four dimensions", "Its first two coordinates fill a disk evenly.",
       PLANE(-1.1, 1.1, -1.1, 1.1), buffon_sphere_n(4));
@@ -225,7 +243,23 @@ ENTRY("Product of two normals", "Independent coordinates, each by its own law.",
       FIELD(-3, 3, -3, 3), buffon_density_product(normals, 2));
 
 const buffon_density round[] = {buffon_disk(0.7), buffon_segment(-0.8, 0.8)};
+const buffon_density bell = buffon_density_product(normals, 2);
+const double slant[] = {0.9, -0.5, 0.6, 1.1}, shift[] = {0.2, 0.1};
+ENTRY("Affine map", "Any density of the plane or of space, stretched, slanted and shifted.",
+      FIELD(-3, 3, -3, 3), buffon_affine(&bell, slant, shift));
+
+const buffon_density modes[] = {buffon_normal(-1.2, 0.5), buffon_normal(1.1, 0.8)};
+const double weights[] = {1, 2};
+ENTRY("Mixture", "One of several laws, each with its weight; the first uniform serves twice.",
+      LINE(-4, 4), buffon_mixture(modes, weights, 2));
+
+const buffon_density logistic = buffon_logistic(0, 1);
+ENTRY("Truncated", "Any law on the line, kept between two bounds.", LINE(-3, 5),
+      buffon_truncated(&logistic, -1, 4));
+
+const buffon_density upright = buffon_hemisphere_power(30);
+ENTRY("Turned", "Any density in space about another axis.", SPHERE,
+      buffon_turned_to(&upright, lamp));
+
 ENTRY("Product of disk and segment", "A solid cylinder.", SPACE(0, 0, 0, 1.05),
       buffon_density_product(round, 2));
-ENTRY("Picture of a sky", "Directions by the luminance of an image in longitude and latitude.",
-      SPHERE, buffon_environment(room[4], sizeof room[4], pixels, 8, 2));

@@ -7,6 +7,7 @@
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
  *     layer 2  inversion  exponential  normal  laws  gamma  beta  student  counts
  *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -15,6 +16,7 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "affine.h"
 #include "alias.h"
 #include "api.h"
 #include "ball.h"
@@ -22,8 +24,8 @@
 #include "bilinear.h"
 #include "box.h"
 #include "cap.h"
-#include "counts.h"
 #include "cap_cosine.h"
+#include "counts.h"
 #include "cpu.h"
 #include "cylinder.h"
 #include "density.h"
@@ -41,6 +43,7 @@
 #include "inversion.h"
 #include "laws.h"
 #include "math.h"
+#include "mixture.h"
 #include "normal.h"
 #include "parallelogram.h"
 #include "partial.h"
@@ -60,6 +63,7 @@
 #include "stratified.h"
 #include "student.h"
 #include "table.h"
+#include "truncated.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"

@@ -40,7 +40,7 @@ BUFFON_API size_t buffon_environment_size(size_t width, size_t height);
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_DIM (width, height), BUFFON_E_NULL,
  *           BUFFON_E_SIZE (the memory), BUFFON_E_SHAPE (the luminances)
  *  Exact:   F is u, for each of them, within 2^-48 and what 2^-48 of a turn or of a height are
- *           worth; heights near a pole within 2^-48 of themselves; |x|^2 within 2^-50 of 1; g
+ *           worth; heights near a pole within 2^-47 of themselves; |x|^2 within 2^-50 of 1; g
  *           within 6 ulp and what half a unit is of the row in the whole and of the pixel in its
  *           row (tests/test_tables.c)
  *  Cost:    some 70 ns a pixel to make
