@@ -14,6 +14,7 @@
 #define GAMMA_LOG_2PI 0x1.d67f1c864beb5p+0
 #define GAMMA_BELL 10 /* shapes from which the law is nearly normal */
 #define GAMMA_NEAR 1.5
+#define GAMMA_NOWHERE -2000 /* a log y whose y is 0 at any scale: P(Y <= y) is y^a */
 enum { GAMMA_TERMS = 90, GAMMA_ALTERNATING = 26, GAMMA_STEPS = 1000 };
 
 /* The variable is t = log(y / unit), unit = max(a, 1), in which the density is
@@ -184,7 +185,8 @@ static double gamma_quantile(const gamma_law *law, double u, double *log_y)
     log_p = upper ? buffon_priv_log1p(-(1 - u)) : buffon_priv_log(u);
     log_q = upper ? buffon_priv_log(1 - u) : buffon_priv_log1p(-u);
     t = gamma_guess(law, log_p, log_q, z);
-    t = buffon_priv_solve(t, upper ? log_q : log_p, upper, gamma_place, law);
+    if (t > GAMMA_NOWHERE)
+        t = buffon_priv_solve(t, upper ? log_q : log_p, upper, gamma_place, law);
     *log_y = t + law->log_unit;
     return law->unit * buffon_priv_exp(t);
 }
