@@ -37,11 +37,19 @@ ENTRY("Normal", "Sums of many small things.", LINE(-4, 4), buffon_normal(0, 1));
 ENTRY("Normal, its tails", "The same on a logarithmic scale: a parabola.", TAILS(-4.5, 4.5, 6),
       buffon_normal(0, 1));
 
+ENTRY("Normal, bounded", "However far out the bounds are.", LINE(3, 5),
+      buffon_normal_truncated(0, 1, 3.25, 4.5));
+
+ENTRY("Lognormal", "Products of many small things.", LINE(0, 6), buffon_lognormal(0, 0.7));
+
 ENTRY("Logistic", "Like the normal, with the tails of an exponential.", TAILS(-12, 12, 6),
       buffon_logistic(0, 1));
 
 ENTRY("Cauchy", "Where a spun lamp hits a wall: it has no mean.", TAILS(-60, 60, 4),
       buffon_cauchy(0, 1));
+
+ENTRY("Student", "The mean of few normals over its error; its intervals are this library's.",
+      TAILS(-12, 12, 5), buffon_student_t(3));
 
 ENTRY("Power", "A power of x between bounds, infinite or not at its end.", LINE(0, 2),
       buffon_power(1.5, 0, 2));
@@ -54,6 +62,9 @@ ENTRY("Gamma", "The wait for several events.", LINE(0, 10), buffon_gamma(2.5, 1)
 
 ENTRY("Chi-square", "Sums of squares of normals; of one, with a pole at 0.", LINE(0, 6),
       buffon_chi_square(1));
+
+ENTRY("Beta", "A share between 0 and 1; here with poles at both ends.", LINE(0, 1),
+      buffon_beta(0.6, 0.8));
 
 ENTRY("von Mises", "The normal law of angles: kappa is how much they agree.", LINE(-3.3, 3.3),
       buffon_von_mises(2, 0));
@@ -89,6 +100,11 @@ ROOM(image, buffon_piecewise_grid_size(72, 72));
 ENTRY("Image", "Points fall where it is bright.", FIELD(0, 1, 0, 1),
       buffon_piecewise_grid(image, image_size, rose, 72, 72));
 
+const double nodes[] = {0, 1, 0, 0, 1, 1, 0, 3, 1, 2, 0, 1, 0, 0, 6, 1, 0, 2, 1, 0, 0, 1, 0, 3, 0};
+ROOM(nodal, buffon_bilinear_grid_size(5, 5));
+ENTRY("Surface", "Heights at the nodes of a grid, bilinear in between.", FIELD(0, 1, 0, 1),
+      buffon_bilinear_grid(nodal, nodal_size, nodes, 5, 5));
+
 static double sky[64 * 32];
 for (int i = 0; i < 64 * 32; i++) {
     const double angle = 3.14159265 * (i / 64 + 0.5) / 32, turn = 6.2831853 * (i % 64 + 0.5) / 64;
@@ -111,16 +127,6 @@ ENTRY("Alias table", "Any weights, in constant time, by bits that are exact.", B
 ROOM(guide, buffon_guide_size(12));
 ENTRY("Guide table", "The same weights by inversion: items keep their order.", BARS(0, 11),
       buffon_guide(guide, guide_size, odds, 12));
-static uint64_t room[5][512];
-const double heights[] = {0.2, 0.9, 0.5, 0, 0.7, 0.3};
-ENTRY("Steps", "A histogram; what has height 0 is never drawn.", LINE(-0.1, 1.1),
-      buffon_piecewise_constant(room[0], sizeof room[0], NULL, heights, 6));
-
-ENTRY("Straight lines", "Heights at a few points, and straight lines between them.",
-      LINE(-0.1, 1.1), buffon_piecewise_linear(room[1], sizeof room[1], NULL, heights, 6));
-
-ENTRY("Weights", "One of a number of items by their weights, in constant time.", BARS(0, 5),
-      buffon_alias(room[2], sizeof room[2], heights, 6));
 
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
@@ -136,6 +142,16 @@ ENTRY("Disk", "Polar coordinates: the radius is the square root of a uniform.",
 ENTRY("Disk, concentric", "Squares become circles; neighbours stay neighbours.",
       PLANE(-1.1, 1.1, -1.1, 1.1), buffon_disk_concentric(1));
 
+ENTRY("Circle", "The edge alone, by its length.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_circle(1));
+
+ENTRY("Annulus", "A ring, however thin: its area is a product, not a difference.",
+      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_annulus(0.6, 1));
+
+ENTRY("Sector", "Part of a ring, between two angles.", PLANE(-1.1, 1.1, -1.1, 1.1),
+      buffon_disk_sector(0.3, 1, -0.5, 2.2));
+
+ENTRY("Ellipse", "The concentric disk, drawn out.", PLANE(-1.1, 1.1, -1.1, 1.1),
+      buffon_ellipse(1, 0.6));
 ENTRY("Circle", "Its points by length.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_circle(1));
 
 ENTRY("Ring", "However thin, it keeps its digits.", PLANE(-1.1, 1.1, -1.1, 1.1),
@@ -147,14 +163,16 @@ ENTRY("Sector", "Between two circles and two angles.", PLANE(-1.1, 1.1, -1.1, 1.
 ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellipse(1, 0.5));
 
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
-ENTRY("Triangle in the plane", "Low distortion: no corner is pinched.", PLANE(-1.1, 1.1, -1.1, 1.1),
-      buffon_triangle_flat(west, east, north));
+ENTRY("Triangle in the plane", "A root and a straight line; all meets in one corner.",
+      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_triangle_flat(west, east, north));
 ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
       buffon_bilinear(1, 4, 3, 0));
 
 const double pixels[] = {1, 0, 3, 1, 2, 1, 0, 2, 6, 3, 2, 0, 1, 2, 1, 0};
 ENTRY("Grid", "An image: cells, each of its own height.", FIELD(-0.1, 1.1, -0.1, 1.1),
       buffon_piecewise_grid(room[3], sizeof room[3], pixels, 4, 4));
+ENTRY("Triangle in the plane", "Three corners, every point alike.", PLANE(-1.1, 1.1, -1.1, 1.1),
+      buffon_triangle_flat(west, east, north));
 
 /* ---- directions ---- */
 GROUP("Directions", "Unit vectors; the density is by solid angle.");
@@ -172,6 +190,21 @@ ENTRY("Power of the cosine", "A glossy surface: the higher the power, the narrow
 ENTRY("Cap", "A lamp that is a sphere, the sun, a cone of directions.", SPHERE,
       buffon_cap_about(0.8, lamp));
 
+ENTRY("Zone", "Between two planes, or two angles from an axis.", SPHERE,
+      buffon_zone(0.1, 0.5, lamp));
+
+ENTRY("All but a cap", "The sphere, with the smallest hole kept out.", SPHERE,
+      buffon_cap_complement_angle(0.7, lamp));
+
+ENTRY("Power of the cosine", "A spot of light, from a wide one to a beam.", SPHERE,
+      buffon_hemisphere_power(20));
+
+const double up[] = {0, 0, 1}, setting[] = {3, -2, 0.3};
+ENTRY("Cosine cap", "A cap as a surface sees it: what grazes counts less.", SPHERE,
+      buffon_cap_cosine(0.7, lamp, up));
+
+ENTRY("Cosine cap, setting", "The horizon cuts it: nothing below, little above.", SPHERE,
+      buffon_cap_cosine(0.6, setting, up));
 ENTRY("Zone", "Between two parallels.", SPHERE, buffon_zone(-0.25, 0.5, up));
 
 ENTRY("All but a cap", "What a lamp leaves.", SPHERE, buffon_cap_complement_angle(0.9, lamp));
@@ -181,6 +214,29 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
+
+const double eye[] = {0, 0, 0}, near[] = {1, -1, -0.3}, side[] = {1.2, 0.9, 0.2};
+const double top[] = {0.2, 0.3, 1.5}, frame[] = {0.9, -1, -0.4}, along[] = {0, 2.2, 0};
+const double upward[] = {0, 0, 1.3};
+ENTRY("Triangle seen from a point", "A lamp of three corners, even to the eye.", SPHERE,
+      buffon_spherical_triangle(eye, near, side, top));
+
+ENTRY("Rectangle seen from a point", "A window: strips of even solid angle.", SPHERE,
+      buffon_spherical_rectangle(eye, frame, along, upward));
+const double low_lamp[] = {3, -2.5, 0.8};
+ENTRY("Cosine cap", "What a lamp near the horizon gives a surface: its cosine, nothing below.",
+      SPHERE, buffon_cap_cosine(0.8, low_lamp, up));
+
+const double eye[] = {0, 0, 0}, p[] = {2, -1, 2}, q[] = {-1, -2, 0.5}, r[] = {1.5, -2, -0.7};
+ENTRY("Spherical triangle", "The directions in which a triangle is seen, by solid angle.", SPHERE,
+      buffon_spherical_triangle(eye, p, q, r));
+
+const double qp[] = {2, 1, 0}, qr[] = {0.4, -0.8, -1.6};
+ENTRY("Spherical rectangle", "The directions in which a rectangular lamp is seen.", SPHERE,
+      buffon_spherical_rectangle(eye, q, qp, qr));
+
+ENTRY("Rotations", "All alike: each hair is where a turn takes the pole, and points where x went.",
+      FRAMES, buffon_rotation());
 
 /* ---- shapes in space ---- */
 GROUP("Shapes in space", "Seen from afar; what is further off is fainter.");
@@ -227,5 +283,3 @@ ENTRY("Product of two normals", "Independent coordinates, each by its own law.",
 const buffon_density round[] = {buffon_disk(0.7), buffon_segment(-0.8, 0.8)};
 ENTRY("Product of disk and segment", "A solid cylinder.", SPACE(0, 0, 0, 1.05),
       buffon_density_product(round, 2));
-ENTRY("Picture of a sky", "Directions by the luminance of an image in longitude and latitude.",
-      SPHERE, buffon_environment(room[4], sizeof room[4], pixels, 8, 2));
