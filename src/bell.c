@@ -10,20 +10,19 @@
 
 /* W = zeta + ...: with H = W^2 / 2 the equation is H' = zeta (1 + c W - 2 v H). Then f = zeta / W.
  * Series converge up to the next point of the complex plane where W = 0 again: |zeta| = 2 sqrt(pi)
- * for the gamma law, farther for the beta law, sqrt(2 pi) for Student's. `wide` has two terms more
- * than f, which a quotient of series needs. */
-static void bell_shape(double *f, double c, double v)
+ * for the gamma law, farther for the beta law, sqrt(2 pi) for Student's. */
+static void bell_shape(double *f, double c, double v, int terms)
 {
     double w[BELL_TERMS + 2] = {0, 1}, h[BELL_TERMS + 3] = {0, 0, 0.5};
-    for (int k = 2; k <= BELL_TERMS + 1; k++) {
-        double sum = 0;
-        h[k + 1] = (c * w[k - 1] - 2 * v * h[k - 1]) / (k + 1);
-        for (int j = 2; j < k; j++)
+    for (int k = 2; k <= terms + 1; k++) {
+        double sum = k % 2 ? 0.5 * w[(k + 1) / 2] * w[(k + 1) / 2] : 0;
+        h[k + 1] = (c * w[k - 1] - 2 * v * h[k - 1]) * (1.0 / (k + 1));
+        for (int j = 2; 2 * j < k + 1; j++)
             sum += w[j] * w[k + 1 - j];
-        w[k] = h[k + 1] - 0.5 * sum;
+        w[k] = h[k + 1] - sum;
     }
     f[0] = 1;
-    for (int k = 1; k <= BELL_TERMS; k++) {
+    for (int k = 1; k <= terms; k++) {
         double sum = 0;
         for (int j = 1; j <= k; j++)
             sum += w[j + 1] * f[k - j];
@@ -31,25 +30,35 @@ static void bell_shape(double *f, double c, double v)
     }
 }
 
-void buffon_priv_bell_make(buffon_priv_bell *bell, double c, double v, double n, double log_gain,
-                           double r)
-{
-    const double gain = buffon_priv_exp(log_gain), step = 1 / n;
-    double *s = bell->s;
-    bell->n = n;
-    bell->root = sqrt(n);
-    bell->gain = gain;
-    bell->reach = 1 / sqrt(r);
-    bell_shape(bell->f, c, v);
-    for (int k = BELL_TERMS; k > 0; k--)
-        s[k - 1] = gain * bell->f[k] + (k + 1 < BELL_TERMS ? (k + 1) * step * s[k + 1] : 0);
-}
-
 /* Terms that a zeta needs: they fall by 2.5 / |zeta| at least. */
 static int bell_terms(double zeta)
 {
     const double size = buffon_priv_abs(zeta);
-    return size < 0.015625 ? 7 : size < 0.125 ? 12 : size < 0.4 ? 20 : BELL_TERMS;
+    if (size < 0.125)
+        return size < 0.015625 ? 8 : size < 0.0625 ? 10 : 13;
+    return size < 0.25 ? 16 : size < 0.4 ? 20 : BELL_TERMS;
+}
+
+/* The coefficients of s need some more of f, fewer as n grows. */
+void buffon_priv_bell_make(buffon_priv_bell *bell, double c, double v, double n, double log_gain,
+                           double r, double most)
+{
+    const double gain = buffon_priv_exp(log_gain), step = 1 / n;
+    const int needed = bell_terms(most) + (n < 1000 ? 6 : n < 100000 ? 2 : 0);
+    const int terms = needed < BELL_TERMS ? needed : BELL_TERMS;
+    double *s = bell->s;
+    bell->n = n;
+    bell->root = sqrt(n);
+    bell->gain = gain;
+    bell->reach = buffon_priv_bell_reach(r);
+    bell_shape(bell->f, c, v, terms);
+    for (int k = terms; k > 0; k--)
+        s[k - 1] = gain * bell->f[k] + (k + 1 < terms ? (k + 1) * step * s[k + 1] : 0);
+}
+
+double buffon_priv_bell_reach(double r)
+{
+    return 1 / sqrt(r);
 }
 
 static double bell_series(const double *c, double zeta, int terms)

@@ -33,9 +33,11 @@ typedef struct buffon_priv_bell {
 
 /* `log_gain` is log G. The series converge up to |zeta| = sqrt(4 pi / r), r = 1 for the gamma law,
  * max(a, b) / (a + b) for the beta law, 2 for Student's; reach is 2/7 of it, where they leave 1e-16
- * for n >= 10 r. */
+ * for n >= 10 r. No |zeta| above `most` will be asked for, which saves terms. */
 void buffon_priv_bell_make(buffon_priv_bell *bell, double c, double v, double n, double log_gain,
-                           double r);
+                           double r, double most);
+
+double buffon_priv_bell_reach(double r);
 
 /* The zeta that has as much below it as the normal z; NaN if that is out of reach. */
 double buffon_priv_bell_quantile(const buffon_priv_bell *bell, double z);

@@ -35,6 +35,7 @@ static int beta_draw(double *x, double *pdf, const double *u, size_t n, const bu
 {
     buffon_priv_beta law;
     buffon_priv_beta_make(&law, g->param[0], g->param[1]);
+    buffon_priv_beta_prepare(&law);
     for (size_t i = 0; i < n; i++) {
         x[i] = beta_point(&law, density_inside(u[i]));
         if (pdf)
@@ -76,6 +77,7 @@ static int beta_invert(double *u, const double *x, size_t n, const buffon_densit
 {
     buffon_priv_beta law;
     buffon_priv_beta_make(&law, g->param[0], g->param[1]);
+    buffon_priv_beta_prepare(&law);
     for (size_t i = 0; i < n; i++)
         u[i] = density_inside(beta_cdf(&law, x[i]));
     return 0;

@@ -55,7 +55,7 @@ LANES_INLINE lanes_d LANES(fisher_log)(lanes_d t, lanes_d y)
 LANES_INLINE void LANES(fisher_points)(double *const row[4], const double *u1, const double *u2,
                                        size_t n, const double *param, const double *frame)
 {
-    const double kappa = param[FISHER_KAPPA], top = param[FISHER_TOP];
+    const double kappa = param[FISHER_KAPPA], top = param[FISHER_TOP], spread = 1 / kappa;
     const double far = param[FISHER_FAR], edge = param[FISHER_EDGE];
     const double front = param[FISHER_FRONT], back = param[FISHER_BACK];
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
@@ -64,7 +64,7 @@ LANES_INLINE void LANES(fisher_points)(double *const row[4], const double *u1, c
         if (kappa > 0) {
             const lanes_m behind = lanes_less(v, lanes_all(edge));
             const lanes_d t = lanes_pick(behind, back * v, front * u);
-            const lanes_d from = lanes_abs(LANES(fisher_log)(t, y)) / kappa;
+            const lanes_d from = lanes_abs(LANES(fisher_log)(t, y)) * spread;
             w = lanes_pick(behind, 2.0 - from, from);
             rest = lanes_pick(behind, from, 2.0 - from);
         }

@@ -6,6 +6,7 @@
 #include <buffon/estimate.h>
 
 #include "exact.h"
+#include "median.h"
 #include "quantile.h"
 #include "record.h"
 #include "spread.h"
@@ -134,6 +135,19 @@ static void estimate_interval(buffon_estimate *out, const buffon_priv_record *re
     }
 }
 
+/* lo and hi of a median, between two of the replicates' estimates. */
+static void estimate_order(buffon_estimate *out, const buffon_priv_median *median, double alpha)
+{
+    const double rounding = estimate_rounding(out);
+    double lo, hi;
+    if (!(out->std_error < INFINITY) || !(out->value - out->value == 0) ||
+        !buffon_priv_median_interval(&lo, &hi, median, alpha))
+        return;
+    out->lo = lo - rounding;
+    out->hi = hi + rounding;
+    out->interval = BUFFON_INTERVAL_ORDER;
+}
+
 static void estimate_doubts(buffon_estimate *out, const buffon_priv_record *record)
 {
     const buffon_priv_shape *shape = &record->shape;
@@ -144,7 +158,9 @@ static void estimate_doubts(buffon_estimate *out, const buffon_priv_record *reco
         doubts |= BUFFON_DOUBT(BUFFON_W_NONFINITE);
     if (shape->design == BUFFON_DESIGN_NONE)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_ERROR);
-    else if (out->std_error == INFINITY || out->value - out->value != 0)
+    else if (out->std_error == INFINITY || out->value - out->value != 0 ||
+             (shape->design == BUFFON_DESIGN_MEDIAN && out->std_error > 0 &&
+              out->interval == BUFFON_INTERVAL_NONE))
         doubts |= BUFFON_DOUBT(BUFFON_W_FEW);
     if (out->std_error == 0 && !shape->constant)
         doubts |= BUFFON_DOUBT(BUFFON_W_NO_SPREAD);
@@ -192,13 +208,31 @@ static double estimate_variance(const buffon_priv_record *record, size_t k, buff
                                                            buffon_priv_wide_mul(factor, factor)));
 }
 
+/* Value and error: the mean and its degrees of freedom, or the median. */
+static double estimate_error(buffon_estimate *out, buffon_priv_median *median,
+                             const buffon_priv_record *record, size_t k)
+{
+    buffon_priv_spread spread = {buffon_priv_wide_of(0), 0};
+    if (record->shape.design == BUFFON_DESIGN_MEDIAN) {
+        buffon_priv_median_make(median, record, k);
+        out->value = buffon_priv_median_value(median);
+        out->std_error = buffon_priv_median_error(median);
+        const buffon_priv_wide error = buffon_priv_wide_of(out->std_error);
+        spread.square = buffon_priv_wide_mul(error, error);
+    } else {
+        spread = buffon_priv_spread_of(record, k, k);
+        out->value = buffon_priv_wide_to_double(buffon_priv_spread_value(record, k));
+        out->std_error = buffon_priv_wide_to_double(buffon_priv_wide_sqrt(spread.square));
+    }
+    out->variance = estimate_variance(record, k, spread.square, out->samples);
+    return spread.dof;
+}
+
 static void estimate_component(buffon_estimate *out, const buffon_priv_record *record, size_t k)
 {
     const buffon_priv_shape *shape = &record->shape;
-    const buffon_priv_spread spread = buffon_priv_spread_of(record, k, k);
-    out->value = buffon_priv_wide_to_double(buffon_priv_spread_value(record, k));
-    out->std_error = buffon_priv_wide_to_double(buffon_priv_wide_sqrt(spread.square));
-    out->variance = estimate_variance(record, k, spread.square, out->samples);
+    buffon_priv_median median;
+    const double dof = estimate_error(out, &median, record, k);
     /* What is not known is the same NaN on every machine. */
     if (out->std_error != out->std_error)
         out->std_error = shape->design == BUFFON_DESIGN_NONE ? NAN : INFINITY;
@@ -212,7 +246,10 @@ static void estimate_component(buffon_estimate *out, const buffon_priv_record *r
         estimate_weights(out, record);
     else if (shape->design <= BUFFON_DESIGN_STRATIFIED)
         out->max_share = estimate_share(record, k);
-    estimate_interval(out, record, spread.dof);
+    if (shape->design == BUFFON_DESIGN_MEDIAN && out->std_error > 0)
+        estimate_order(out, &median, (1 - out->confidence) / (double)shape->looks);
+    else
+        estimate_interval(out, record, dof);
     estimate_doubts(out, record);
 }
 

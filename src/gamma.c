@@ -66,7 +66,7 @@ static void gamma_law_make(gamma_law *law, const buffon_density *g)
         law->alternating[k - 1] = 1 / (factorial * (law->a + k));
     }
     if (law->a >= GAMMA_BELL)
-        buffon_priv_bell_make(&law->bell, 1, 0, law->a, -g->param[6], 1);
+        buffon_priv_bell_make(&law->bell, 1, 0, law->a, -g->param[6], 1, 1);
 }
 
 /* log(D / size) */

@@ -64,8 +64,26 @@ void buffon_priv_beta_make(buffon_priv_beta *law, double a, double b)
         peak += 0.5 * buffon_priv_log(n) + INCOMPLETE_LOG_SQRT_2PI;
     law->peak = peak;
     law->nearly_normal = a >= INCOMPLETE_BELL && b >= INCOMPLETE_BELL;
+    law->gain = gain;
+    law->prepared = 0;
+}
+
+static double incomplete_radius(const buffon_priv_beta *law)
+{
+    return law->x0 > law->y0 ? law->x0 : law->y0;
+}
+
+static void incomplete_bell(buffon_priv_bell *bell, const buffon_priv_beta *law, double most)
+{
+    buffon_priv_bell_make(bell, (law->b - law->a) / law->n, law->x0 * law->y0, law->unit, law->gain,
+                          incomplete_radius(law), most);
+}
+
+void buffon_priv_beta_prepare(buffon_priv_beta *law)
+{
+    law->prepared = law->nearly_normal;
     if (law->nearly_normal)
-        buffon_priv_bell_make(&law->bell, (b - a) / n, x0 * y0, a * y0, gain, x0 > y0 ? x0 : y0);
+        incomplete_bell(&law->bell, law, 2);
 }
 
 /* The deviance, for a <= b: (a + b) log(y0 + x0 e^mu) - a mu. Near the mean the terms cancel, which
@@ -234,7 +252,7 @@ buffon_priv_beta_point buffon_priv_beta_quantile(const buffon_priv_beta *law, do
         point = incomplete_power(upper, lower, b);
         return (buffon_priv_beta_point){.x = point.y, .y = point.x, .mu = -point.mu};
     }
-    if (law->nearly_normal) {
+    if (law->prepared) {
         const double zeta = buffon_priv_bell_quantile(&law->bell, above ? -z : z);
         if (zeta == zeta) {
             const double w = buffon_priv_bell_distance(&law->bell, zeta);
@@ -273,8 +291,7 @@ static double incomplete_product(double *rest, double a, double b)
     return product;
 }
 
-/* (a + b) x - a with little error beside its last rounding, for x near the mean too. */
-static double incomplete_excess(double a, double b, double x)
+double buffon_priv_beta_excess(double a, double b, double x)
 {
     double rest_a, rest_b, rest;
     const double sum =
@@ -289,31 +306,37 @@ static double incomplete_part(double d, double quotient)
     return d < -0.5 ? d - buffon_priv_log(quotient) : buffon_priv_deviance(d);
 }
 
-/* log(D / unit). The deviance is the sum of two that are not negative, as a d + b e = 0. */
-static double incomplete_log_density(const buffon_priv_beta *law, double x)
+/* The deviance at x is the sum of two that are not negative, as a d + b e = 0; `excess` is
+ * n (x - x0). */
+static double incomplete_deviance_at(const buffon_priv_beta *law, double x, double excess)
 {
-    const double a = law->a, b = law->b, y = 1 - x, excess = incomplete_excess(a, b, x);
-    return law->peak - a * incomplete_part(excess / a, x / law->x0) -
-           b * incomplete_part(-excess / b, y / law->y0);
+    const double a = law->a, b = law->b;
+    return a * incomplete_part(excess / a, x / law->x0) +
+           b * incomplete_part(-excess / b, (1 - x) / law->y0);
 }
 
 double buffon_priv_beta_log_density(const buffon_priv_beta *law, double x)
 {
-    return buffon_priv_log(law->unit) + incomplete_log_density(law, x);
+    const double excess = buffon_priv_beta_excess(law->a, law->b, x);
+    return buffon_priv_log(law->unit) + (law->peak - incomplete_deviance_at(law, x, excess));
 }
 
 double buffon_priv_beta_tail(const buffon_priv_beta *law, double x, int upper)
 {
-    incomplete_place at;
-    at.x = x;
-    at.y = 1 - x;
-    at.slope = -incomplete_excess(law->a, law->b, x);
-    at.density = incomplete_log_density(law, x);
+    const double excess = buffon_priv_beta_excess(law->a, law->b, x);
+    const double deviance = incomplete_deviance_at(law, x, excess);
+    const incomplete_place at = {
+        .x = x, .y = 1 - x, .slope = -excess, .density = law->peak - deviance};
     if (law->nearly_normal) {
-        const double deviance = law->peak - at.density;
-        const double size = sqrt(deviance > 0 ? 2 * deviance / law->bell.n : 0);
-        if (size <= law->bell.reach)
-            return buffon_priv_bell_tail(&law->bell, at.slope > 0 ? -size : size, upper);
+        const double size = sqrt(2 * deviance / law->unit);
+        const double zeta = at.slope > 0 ? -size : size;
+        buffon_priv_bell bell;
+        if (law->prepared && size <= law->bell.reach)
+            return buffon_priv_bell_tail(&law->bell, zeta, upper);
+        if (!law->prepared && size <= buffon_priv_bell_reach(incomplete_radius(law))) {
+            incomplete_bell(&bell, law, size);
+            return buffon_priv_bell_tail(&bell, zeta, upper);
+        }
     }
     return buffon_priv_exp(at.density) * incomplete_ratio(law, &at, upper);
 }
@@ -333,5 +356,6 @@ double buffon_beta_quantile(double p, double a, double b)
     if (p == 0 || p == 1)
         return p;
     buffon_priv_beta_make(&law, a, b);
+    buffon_priv_beta_prepare(&law);
     return buffon_priv_beta_quantile(&law, p, 1 - p, (double)NAN).x;
 }

@@ -12,12 +12,20 @@ typedef struct buffon_priv_beta {
     double x0, y0;  /* the mean and 1 - mean */
     double unit;    /* a b / n */
     double peak;    /* log(D / unit) at the mean: 0 for tiny parameters */
+    double gain;    /* errors of Stirling's formula, for bell.h */
     int nearly_normal;
-    buffon_priv_bell bell; /* where it is */
+    int prepared;
+    buffon_priv_bell bell; /* of a nearly normal law that is prepared */
 } buffon_priv_beta;
 
 /* Both parameters from 1e-16 to 1e30. */
 void buffon_priv_beta_make(buffon_priv_beta *law, double a, double b);
+
+/* Spends 1 us at once for faster tails; what quantiles need. */
+void buffon_priv_beta_prepare(buffon_priv_beta *law);
+
+/* (a + b) x - a with little error beside its last rounding, for x near the mean too. */
+double buffon_priv_beta_excess(double a, double b, double x);
 
 /* log D at x, for x in (0, 1). */
 double buffon_priv_beta_log_density(const buffon_priv_beta *law, double x);

@@ -22,6 +22,12 @@ static buffon_status laws_check_interval(double lo, double hi)
     return width >= 0x1p-1020 && buffon_priv_isfinite(width) ? BUFFON_OK : BUFFON_E_DOMAIN;
 }
 
+/* The nearest point of an interval, from which points outside are taken back. */
+static double laws_held(double x, double lo, double hi)
+{
+    return x < lo ? lo : x > hi ? hi : x;
+}
+
 /* ---- straight lines ----------------------------------------------------------------------- */
 
 /* `param`: lo, hi, the heights at the ends as shares of their sum, hi - lo. */
@@ -64,7 +70,8 @@ static int linear_invert(double *u, const double *x, size_t n, const buffon_dens
 {
     const double *p = g->param, width = p[LINEAR_WIDTH];
     for (size_t i = 0; i < n; i++) {
-        const double low = (x[i] - p[LINEAR_LO]) / width, high = (p[LINEAR_HI] - x[i]) / width;
+        const double at = laws_held(x[i], p[LINEAR_LO], p[LINEAR_HI]);
+        const double low = (at - p[LINEAR_LO]) / width, high = (p[LINEAR_HI] - at) / width;
         u[i] = density_inside(low * (p[LINEAR_A] * (1 + high) + p[LINEAR_B] * low));
     }
     return 0;
@@ -150,12 +157,13 @@ static int triangular_invert(double *u, const double *x, size_t n, const buffon_
 {
     const double *p = g->param;
     for (size_t i = 0; i < n; i++) {
-        const double low = (x[i] - p[TRIANGLE_LO]) / p[TRIANGLE_A];
-        const double past = (x[i] - p[TRIANGLE_MODE]) / p[TRIANGLE_B];
-        const double high = (p[TRIANGLE_HI] - x[i]) / p[TRIANGLE_B];
+        const double at = laws_held(x[i], p[TRIANGLE_LO], p[TRIANGLE_HI]);
+        const double low = (at - p[TRIANGLE_LO]) / p[TRIANGLE_A];
+        const double past = (at - p[TRIANGLE_MODE]) / p[TRIANGLE_B];
+        const double high = (p[TRIANGLE_HI] - at) / p[TRIANGLE_B];
         const double above = p[TRIANGLE_B] > 0 ? p[TRIANGLE_ABOVE] * (past * (1 + high)) : 0;
         const double v =
-            x[i] < p[TRIANGLE_MODE] ? p[TRIANGLE_BELOW] * low * low : p[TRIANGLE_BELOW] + above;
+            at < p[TRIANGLE_MODE] ? p[TRIANGLE_BELOW] * low * low : p[TRIANGLE_BELOW] + above;
         u[i] = density_inside(v);
     }
     return 0;

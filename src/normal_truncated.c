@@ -1,8 +1,8 @@
 /* The normal law between two bounds, and the lognormal.
  *
- * In units of the standard deviation, seen from the bound nearer to the mean, "near": the distance d
- * of a point from it has the density exp(-a d - d^2 / 2) up to a factor, a the distance of near from
- * the mean, negative where the mean lies within. Its mass up to d,
+ * In units of the standard deviation, seen from the bound nearer to the mean, "near": the distance
+ * d of a point from it has the density exp(-a d - d^2 / 2) up to a factor, a the distance of near
+ * from the mean, negative where the mean lies within. Its mass up to d,
  *
  *     D(a, d) = integral from 0 to d of exp(-a t - t^2 / 2) dt,
  *
@@ -191,8 +191,8 @@ static double normal_between(const double *p, double v, double rest)
     return -buffon_priv_normal_quantile(p[NORMAL_ABOVE] + rest * share);
 }
 
-/* The point of v, as counted from near, and its distance z from the mean and d from near. The
- * distance that is used is the least of those from near, other and the mean, or up to 8 times it. */
+/* The point of v, as counted from near, and its distance z from the mean and d from near. Which
+ * distance is used is the least of those from near, other and the mean, or up to 8 times it. */
 static double normal_point(double *z, double *d, double v, double rest, const double *p)
 {
     const double a = p[NORMAL_ALPHA], b = p[NORMAL_BETA], length = p[NORMAL_LENGTH];

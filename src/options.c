@@ -8,6 +8,7 @@
 #include "points_priv.h"
 
 #define OPTIONS_THREADS_MOST 4096
+#define OPTIONS_MEDIAN_LEAST 5 /* replicates */
 
 static int options_all_zero(const uint64_t *words, size_t n)
 {
@@ -82,11 +83,14 @@ buffon_status buffon_priv_integrand_check(const buffon_integrand *f, size_t dim)
 
 buffon_status buffon_priv_points_check(const buffon_points *points, size_t dim)
 {
-    if (points->fill == NULL || points->replicates > 256 ||
-        (unsigned)points->design > BUFFON_DESIGN_NET)
+    if (points->fill == NULL || points->replicates > BUFFON_PRIV_REPLICATES ||
+        (unsigned)points->design > BUFFON_DESIGN_MEDIAN)
         return BUFFON_E_POINTS;
     const int net = points->design == BUFFON_DESIGN_NET;
     if (net && points->replicates > 1)
+        return BUFFON_E_POINTS;
+    if (points->design == BUFFON_DESIGN_MEDIAN &&
+        (points->replicates < OPTIONS_MEDIAN_LEAST || points->replicates % 2 == 0))
         return BUFFON_E_POINTS;
     if (!options_all_zero(points->reserved, 3))
         return BUFFON_E_RESERVED;
@@ -141,7 +145,8 @@ buffon_status buffon_priv_problem_check(const buffon_priv_problem *problem, cons
                                               problem->stratum[s].g->uniforms + problem->extra);
     }
     if (status == BUFFON_OK && run != NULL && run->points != NULL &&
-        !buffon_priv_points_serve(run->points, problem->strata))
+        (!buffon_priv_points_serve(run->points, problem->strata) ||
+         (run->covariance && run->points->design == BUFFON_DESIGN_MEDIAN)))
         status = BUFFON_E_POINTS;
     return status;
 }

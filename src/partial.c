@@ -157,13 +157,15 @@ buffon_status buffon_partial_save(void *bytes, size_t size, const buffon_partial
     return BUFFON_OK;
 }
 
-/* Could a stratum have so many cells? */
+/* Could a stratum have so many cells, and a median products? */
 static int partial_plausible_cells(const buffon_priv_shape *shape)
 {
     if (shape->design == BUFFON_DESIGN_NET)
         return shape->per_stratum >= BUFFON_PRIV_NET_RANGES && shape->per_stratum % 4 == 1 &&
                shape->per_stratum <= BUFFON_PRIV_NET_RANGES_MOST;
-    return shape->per_stratum > 0 && shape->per_stratum <= 256;
+    if (shape->design == BUFFON_DESIGN_MEDIAN && (shape->per_stratum % 2 == 0 || shape->covariance))
+        return 0;
+    return shape->per_stratum > 0 && shape->per_stratum <= BUFFON_PRIV_REPLICATES;
 }
 
 /* Could a run have made this shape? The checksum guards against accidents; this and the exact size
@@ -175,14 +177,16 @@ static int partial_plausible(const buffon_priv_shape *shape)
     memcpy(&scale, &shape->scale_m, sizeof scale);
     if (!(scale > 0 && scale <= 1) || shape->scale_e + far > 2 * far)
         return 0;
-    return shape->kind <= BUFFON_PRIV_RATIO && shape->design <= BUFFON_DESIGN_NET &&
+    return shape->kind <= BUFFON_PRIV_RATIO && shape->design <= BUFFON_DESIGN_MEDIAN &&
            shape->components > 0 && shape->components <= many &&
            shape->outputs == shape->components + (shape->kind == BUFFON_PRIV_RATIO) &&
            shape->covariance <= 1 && shape->constant <= 1 &&
-           (shape->covariance || shape->kind != BUFFON_PRIV_RATIO) && shape->strata > 0 &&
-           shape->strata <= 65536 && partial_plausible_cells(shape) && shape->block >= 16 &&
-           shape->block <= many && !(shape->block & (shape->block - 1)) && shape->round > 0 &&
-           shape->parts > 0 && shape->parts <= UINT32_MAX && shape->looks > 0 && shape->looks <= 64;
+           (shape->covariance || shape->kind != BUFFON_PRIV_RATIO ||
+            shape->design == BUFFON_DESIGN_MEDIAN) &&
+           shape->strata > 0 && shape->strata <= 65536 && partial_plausible_cells(shape) &&
+           shape->block >= 16 && shape->block <= many && !(shape->block & (shape->block - 1)) &&
+           shape->round > 0 && shape->parts > 0 && shape->parts <= UINT32_MAX && shape->looks > 0 &&
+           shape->looks <= 64;
 }
 
 /* Are the targets of a stratum those of a net? The ranges from the first on, each whole. */

@@ -129,13 +129,14 @@ static void plan_shape(buffon_priv_plan *plan)
     const buffon_priv_problem *problem = plan->problem;
     const size_t given = problem->stratum[0].f->components, components = given > 0 ? given : 1;
     const int ratio = problem->kind == BUFFON_PRIV_RATIO;
+    const int median = plan->points.design == BUFFON_DESIGN_MEDIAN;
     plan->shape = (buffon_priv_shape){
         .identity = buffon_priv_problem_identity(problem, &plan->run, &plan->points),
         .kind = problem->kind,
         .design = plan->points.design,
         .components = components,
         .outputs = components + (size_t)ratio,
-        .covariance = plan->run.covariance || ratio,
+        .covariance = plan->run.covariance || (ratio && !median),
         .constant = plan->run.constant != 0,
         .strata = problem->strata,
         .per_stratum = plan->points.replicates > 0 ? plan->points.replicates : 1,

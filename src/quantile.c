@@ -85,6 +85,7 @@ static double quantile_beta(double lower, double upper, double a, double b)
 {
     buffon_priv_beta law;
     buffon_priv_beta_make(&law, a, b);
+    buffon_priv_beta_prepare(&law);
     return buffon_priv_beta_quantile(&law, lower, upper, QUANTILE_NAN).x;
 }
 

@@ -42,6 +42,7 @@ typedef struct buffon_priv_shape {
     uint64_t looks; /* over which the error probability is spent */
 } buffon_priv_shape;
 
+#define BUFFON_PRIV_REPLICATES 256 /* the most */
 #define BUFFON_PRIV_SHAPE_WORDS (sizeof(buffon_priv_shape) / sizeof(uint64_t))
 
 /** Exact sums: stats[cell * series + s] and, with covariance, the limbs of the products of outputs

@@ -15,6 +15,7 @@
 #define SOBOL_SHIFT 64  /* the random word that shifts */
 #define SOBOL_RANDOM 65 /* random words of a dimension */
 #define SOBOL_REPLICATES 8
+#define SOBOL_MEDIAN 15 /* replicates: the 4th to the 12th cover with 96.5 % */
 #define SOBOL_TOP (UINT64_C(0x3f) << SOBOL_STEPS)
 
 enum { SOBOL_WORDS, SOBOL_UNIFORMS, SOBOL_TREE };
@@ -313,6 +314,14 @@ buffon_points buffon_points_sobol_net(buffon_scramble scramble)
     points.replicates = 1;
     if (points.design == BUFFON_DESIGN_REPLICATES)
         points.design = BUFFON_DESIGN_NET;
+    return points;
+}
+
+buffon_points buffon_points_sobol_median(void)
+{
+    buffon_points points = buffon_points_sobol(BUFFON_SCRAMBLE_LINEAR);
+    points.replicates = SOBOL_MEDIAN;
+    points.design = BUFFON_DESIGN_MEDIAN;
     return points;
 }
 

@@ -7,9 +7,22 @@
 #include "circle.h"
 #include "density_priv.h"
 #include "frame.h"
+#include "sphere_priv.h"
 
 #define KERNELS "sphere_lanes.h"
 #include "levels.h"
+
+void buffon_priv_sphere_pair(double *x, double *y, double *rest, const double *u1, const double *u2,
+                             size_t n, double power)
+{
+    LEVELS_RUN(sphere_pair, (x, y, rest, u1, u2, n, power));
+}
+
+void buffon_priv_sphere_circle(double *x, double *y, const double *square, const double *turn,
+                               size_t n)
+{
+    LEVELS_RUN(sphere_circle, (x, y, square, turn, n));
+}
 
 static int sphere_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {

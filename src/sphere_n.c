@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-#include <buffon/math.h>
 #include <buffon/sphere_n.h>
 
 #include "circle.h"
 #include "density_priv.h"
 #include "elementary.h"
+#include "sphere_priv.h"
 
 /* In `param`: the density, its logarithm, and how many coordinates of the sphere are left out. */
 enum { SPHERE_N_PDF, SPHERE_N_LOG_PDF, SPHERE_N_HIDDEN };
@@ -19,94 +19,47 @@ enum { SPHERE_N_TILE = 256 };
 #define SPHERE_N_LOG_PI 0x1.250d048e7a1bdp+0
 #define SPHERE_N_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
 
-/* The rows of a stretch of points: coordinate or uniform j is at j * n. */
-typedef struct sphere_n_tile {
-    double *x;
-    const double *u;
-    size_t n, count;            /* of all points, and of these */
+/* The last three: z is uniform, and x and y have the square 4 u (1 - u) together. */
+static void sphere_n_three(double *const row[3], double *rest, const double *u, const double *turn,
+                           size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        row[2][i] = sqrt(rest[i]) * (1 - 2 * u[i]);
+        rest[i] *= 4 * (u[i] * (1 - u[i]));
+    }
+    buffon_priv_sphere_circle(row[0], row[1], rest, turn, n);
+}
+
+/* Of which a ball shows the first. */
+static void sphere_n_one(double *x, const double *rest, const double *u, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] = sqrt(rest[i]) * (2 * u[i] - 1);
+}
+
+/* n points of a stretch of `all`: row j of x and of u is at j * all. */
+static void sphere_n_points(double *x, const double *u, size_t n, size_t all,
+                            const buffon_density *g)
+{
+    const int hidden = g->param[SPHERE_N_HIDDEN] > 0;
     double rest[SPHERE_N_TILE]; /* what is left of |x|^2 = 1 */
-} sphere_n_tile;
-
-/* Of r uniform coordinates the first two have squares of sum `rest` times a share that is above s
- * with probability (1 - s)^(r/2 - 1): a beta law whose quantile is in closed form. */
-static void sphere_n_pair(sphere_n_tile *t, size_t j, size_t r)
-{
-    const double *u = t->u + j * t->n, *turn = u + t->n;
-    double *x = t->x + j * t->n, *y = x + t->n;
-    double share[SPHERE_N_TILE], keep[SPHERE_N_TILE], size[SPHERE_N_TILE];
-    const double power = 2.0 / (double)(r - 2);
-    for (size_t i = 0; i < t->count; i++)
-        share[i] = -u[i];
-    if (r > 4) {
-        buffon_math_log1p(share, share, t->count);
-        for (size_t i = 0; i < t->count; i++)
-            share[i] *= power;
-        buffon_math_exp(keep, share, t->count);
-        buffon_math_expm1(share, share, t->count);
-    } else {
-        for (size_t i = 0; i < t->count; i++)
-            keep[i] = 1 - u[i];
-    }
-    for (size_t i = 0; i < t->count; i++) {
-        size[i] = sqrt(t->rest[i] * -share[i]);
-        t->rest[i] *= keep[i];
-        keep[i] = 2 * turn[i];
-    }
-    buffon_math_sincospi(share, keep, keep, t->count);
-    for (size_t i = 0; i < t->count; i++) {
-        x[i] = size[i] * keep[i];
-        y[i] = size[i] * share[i];
-    }
-}
-
-/* The last three coordinates, of which a ball shows the first. */
-static void sphere_n_three(sphere_n_tile *t, size_t j, int hidden)
-{
-    const double *u = t->u + j * t->n, *turn = u + t->n;
-    double *x = t->x + j * t->n, *y = x + t->n, *z = y + t->n;
-    for (size_t i = 0; i < t->count; i++) {
-        const double size = sqrt(t->rest[i]);
-        if (hidden) {
-            x[i] = size * (2 * u[i] - 1);
-        } else {
-            const double across = 2 * sqrt(u[i] * (1 - u[i])) * size;
-            double s, c;
-            buffon_priv_sincospi(&s, &c, 2 * turn[i]);
-            x[i] = across * c;
-            y[i] = across * s;
-            z[i] = size * (1 - 2 * u[i]);
-        }
-    }
-}
-
-static void sphere_n_circle(sphere_n_tile *t, size_t j)
-{
-    const double *turn = t->u + j * t->n;
-    double *x = t->x + j * t->n, *y = x + t->n;
-    for (size_t i = 0; i < t->count; i++) {
-        const double size = sqrt(t->rest[i]);
-        double s, c;
-        buffon_priv_sincospi(&s, &c, 2 * turn[i]);
-        x[i] = size * c;
-        y[i] = size * s;
-    }
+    size_t r = g->dim + (hidden ? 2 : 0);
+    density_fill(rest, 1, n);
+    for (; r > 3; r -= 2, x += 2 * all, u += 2 * all)
+        buffon_priv_sphere_pair(x, x + all, rest, u, u + all, n, 2.0 / (double)(r - 2));
+    if (r == 3 && hidden)
+        sphere_n_one(x, rest, u, n);
+    else if (r == 3)
+        sphere_n_three((double *const[]){x, x + all, x + 2 * all}, rest, u, u + all, n);
+    else if (!hidden)
+        buffon_priv_sphere_circle(x, x + all, rest, u, n);
 }
 
 static int sphere_n_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
-    const int hidden = g->param[SPHERE_N_HIDDEN] > 0;
-    for (size_t start = 0; start < n; start += SPHERE_N_TILE) {
-        sphere_n_tile t = {.x = x + start, .u = u + start, .n = n};
-        size_t r = g->dim + (hidden ? 2 : 0), j = 0;
-        t.count = n - start < SPHERE_N_TILE ? n - start : SPHERE_N_TILE;
-        density_fill(t.rest, 1, t.count);
-        for (; r > 3; r -= 2, j += 2)
-            sphere_n_pair(&t, j, r);
-        if (r == 3)
-            sphere_n_three(&t, j, hidden);
-        else if (!hidden)
-            sphere_n_circle(&t, j);
-    }
+    for (size_t start = 0; start < n; start += SPHERE_N_TILE)
+        sphere_n_points(x + start, u + start, n - start < SPHERE_N_TILE ? n - start : SPHERE_N_TILE,
+                        n, g);
     if (pdf)
         density_fill(pdf, g->param[SPHERE_N_PDF], n);
     return 0;

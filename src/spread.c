@@ -8,8 +8,6 @@
 #include "spread.h"
 #include "stats_priv.h"
 
-#define SPREAD_GROUPS 256 /* the most replicates */
-
 /* The first cell of a stratum. */
 static size_t spread_first(const buffon_priv_record *record, size_t stratum)
 {
@@ -179,8 +177,8 @@ static size_t spread_ranges(const buffon_priv_record *record, size_t stratum)
 
 /* Groups of cells that count as one repeat each: replicates, or the eighths of a net. Group g of
  * a stratum is cells group[g], ..., group[g + 1] - 1. Returns their number. */
-static size_t spread_groups(size_t group[SPREAD_GROUPS + 1], const buffon_priv_record *record,
-                            size_t stratum)
+static size_t spread_groups(size_t group[BUFFON_PRIV_REPLICATES + 1],
+                            const buffon_priv_record *record, size_t stratum)
 {
     const int net = record->shape.design == BUFFON_DESIGN_NET;
     const size_t groups = net ? BUFFON_PRIV_NET_BLOCKS : (size_t)record->shape.per_stratum;
@@ -199,7 +197,7 @@ static buffon_priv_spread spread_repeats(const buffon_priv_record *record, size_
     const buffon_priv_wide mean_b = buffon_priv_spread_mean(record, stratum, b);
     const buffon_priv_wide n = buffon_priv_wide_count(buffon_priv_spread_count(record, stratum));
     buffon_priv_wide sum = buffon_priv_wide_of(0);
-    size_t group[SPREAD_GROUPS + 1];
+    size_t group[BUFFON_PRIV_REPLICATES + 1];
     const size_t groups = spread_groups(group, record, stratum);
     uint64_t present = 0;
     for (size_t g = 0; g < groups; g++) {
@@ -248,15 +246,25 @@ buffon_priv_wide buffon_priv_spread_factor(const buffon_priv_record *record, siz
                                 buffon_priv_wide_of(record->weight[stratum]));
 }
 
-/* The mean of an output: the sum over strata of factor times mean. */
-buffon_priv_wide buffon_priv_spread_output(const buffon_priv_record *record, size_t output)
+/* The mean of an output from cells r to end - 1 of each stratum: the sum over strata of factor
+ * times mean. */
+static buffon_priv_wide spread_output(const buffon_priv_record *record, size_t r, size_t end,
+                                      size_t output)
 {
     buffon_priv_wide sum = buffon_priv_wide_of(0);
-    for (size_t s = 0; s < record->shape.strata; s++)
+    for (size_t s = 0; s < record->shape.strata; s++) {
+        const size_t first = spread_first(record, s);
+        uint64_t count;
         sum = buffon_priv_wide_add(
             sum, buffon_priv_wide_mul(buffon_priv_spread_factor(record, s),
-                                      buffon_priv_spread_mean(record, s, output)));
+                                      spread_mean(&count, record, first + r, first + end, output)));
+    }
     return sum;
+}
+
+buffon_priv_wide buffon_priv_spread_output(const buffon_priv_record *record, size_t output)
+{
+    return spread_output(record, 0, (size_t)record->shape.per_stratum, output);
 }
 
 /* Covariance of the means of two outputs, with the degrees of freedom of Welch (1947) and
@@ -281,13 +289,24 @@ static buffon_priv_spread spread_output_covariance(const buffon_priv_record *rec
     return (buffon_priv_spread){sum, one.dof};
 }
 
-buffon_priv_wide buffon_priv_spread_value(const buffon_priv_record *record, size_t k)
+static buffon_priv_wide spread_value(const buffon_priv_record *record, size_t r, size_t end,
+                                     size_t k)
 {
-    const buffon_priv_wide mean = buffon_priv_spread_output(record, k);
+    const size_t weight = (size_t)record->shape.components;
+    const buffon_priv_wide mean = spread_output(record, r, end, k);
     if (record->shape.kind != BUFFON_PRIV_RATIO)
         return mean;
-    return buffon_priv_wide_div(
-        mean, buffon_priv_spread_output(record, (size_t)record->shape.components));
+    return buffon_priv_wide_div(mean, spread_output(record, r, end, weight));
+}
+
+buffon_priv_wide buffon_priv_spread_value(const buffon_priv_record *record, size_t k)
+{
+    return spread_value(record, 0, (size_t)record->shape.per_stratum, k);
+}
+
+buffon_priv_wide buffon_priv_spread_replicate(const buffon_priv_record *record, size_t r, size_t k)
+{
+    return spread_value(record, r, r + 1, k);
 }
 
 /* x y, negated. */

@@ -36,6 +36,9 @@ buffon_priv_wide buffon_priv_spread_factor(const buffon_priv_record *record, siz
 /** An output over all strata: the sum of factor times mean. */
 buffon_priv_wide buffon_priv_spread_output(const buffon_priv_record *record, size_t output);
 
+/** The estimate of component k from replicate r of every stratum alone. */
+buffon_priv_wide buffon_priv_spread_replicate(const buffon_priv_record *record, size_t r, size_t k);
+
 /** The estimate of component k, and the covariance of those of k and l. */
 buffon_priv_wide buffon_priv_spread_value(const buffon_priv_record *record, size_t k);
 buffon_priv_spread buffon_priv_spread_of(const buffon_priv_record *record, size_t k, size_t l);

@@ -28,7 +28,7 @@ static void student_make(student_law *law, const buffon_density *g)
     law->dof = g->param[0];
     law->log_gain = g->param[1];
     if (law->dof >= STUDENT_BELL)
-        buffon_priv_bell_make(&law->bell, 0, 1, law->dof, law->log_gain, 2);
+        buffon_priv_bell_make(&law->bell, 0, 1, law->dof, law->log_gain, 2, 1);
     buffon_priv_beta_make(&law->beta, 0.5, 0.5 * law->dof);
 }
 

@@ -235,6 +235,17 @@ static buffon_status problem_net(buffon_estimate *out, buffon_run run)
     return problem_strata(out, run, BUFFON_ALLOCATION_SHARE);
 }
 
+static buffon_status problem_median(buffon_estimate *out, buffon_run run)
+{
+    const double lo[] = {0, 0}, hi[] = {2, 2};
+    const buffon_density g = buffon_box(lo, hi, 2);
+    const buffon_integrand h = {.batch = problem_three, .dim = 2, .components = 3};
+    const buffon_integrand p = {.scalar = problem_weight, .dim = 2};
+    const buffon_points points = buffon_points_sobol_median();
+    run.points = &points;
+    return buffon_self_normalised(out, &h, &p, &g, &run);
+}
+
 PROBLEMS_UNUSED static const problem problems[] = {
     {"uniform", 1, 1e-2, problem_plain},
     {"three components", 3, 2e-2, problem_components},
@@ -250,6 +261,7 @@ PROBLEMS_UNUSED static const problem problems[] = {
     {"inverse CDF of a table", 1, 1e-2, problem_table},
     {"values that are not finite", 1, 3e-2, problem_nonfinite},
     {"strata, a net in each", 1, 1e-4, problem_net},
+    {"self-normalised, median", 3, 1e-4, problem_median},
 };
 
 enum { PROBLEMS = sizeof problems / sizeof problems[0] };

@@ -35,7 +35,8 @@ static result result_of(const problem *p, buffon_status status, const buffon_par
         exit(1);
     if (buffon_partial_estimate(r.e, partial, 0) != status)
         r.status = BUFFON_E_CORRUPT;
-    if (buffon_partial_covariance(r.cov, partial) != BUFFON_OK && p->components > 1)
+    const int wanted = p->components > 1 && p->solve != problem_median;
+    if (buffon_partial_covariance(r.cov, partial) != BUFFON_OK && wanted)
         r.status = BUFFON_E_CORRUPT;
     return r;
 }
@@ -347,7 +348,9 @@ static void test_blocks(const problem *p, const result *expected, buffon_run run
         for (size_t k = 0; k < p->components; k++) {
             const buffon_estimate *a = &expected->e[k];
             const double value = fabs(e[k].value / a->value - 1);
-            const double error = fabs(e[k].std_error / a->std_error - 1);
+            /* An error far below the value has the value's rounding. */
+            const double error =
+                fabs(e[k].std_error - a->std_error) / fmax(a->std_error, 1e-3 * fabs(a->value));
             worst = value > worst ? value : worst;
             worst = error > worst ? error : worst;
             if (e[k].samples != a->samples || !same_double(e[k].max, a->max) ||
@@ -355,7 +358,7 @@ static void test_blocks(const problem *p, const result *expected, buffon_run run
                 worst = INFINITY;
         }
     }
-    tap_ok(worst < 1e-12, "%s: other blocks give the same but for rounding (%.1g)", p->name, worst);
+    tap_ok(worst < 1e-13, "%s: other blocks give the same but for rounding (%.1g)", p->name, worst);
 }
 
 /* ---- two seeds, streams and uses ---- */

@@ -193,8 +193,8 @@ static void test_points(void)
     bad_run(BUFFON_E_POINTS, &run, "points without fill");
     points = random, points.replicates = 257;
     bad_run(BUFFON_E_POINTS, &run, "257 replicates");
-    points = random, points.design = (buffon_design)6;
-    bad_run(BUFFON_E_POINTS, &run, "design 6");
+    points = random, points.design = (buffon_design)7;
+    bad_run(BUFFON_E_POINTS, &run, "design 7");
     points = random, points.design = BUFFON_DESIGN_NET, points.replicates = 2;
     bad_run(BUFFON_E_POINTS, &run, "two nets");
     for (int i = 0; i < 3; i++) {

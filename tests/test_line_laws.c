@@ -512,8 +512,8 @@ static void gauss_make(void)
     }
 }
 
-/* The integral of exp(-a t - t^2 / 2) from `from` over a width, by panels of Gauss and Legendre: all
- * terms are positive. What is below 1e-25 of it is left. */
+/* The integral of exp(-a t - t^2 / 2) from `from` over a width, by panels of Gauss and Legendre:
+ * all terms are positive. What is below 1e-25 of it is left. */
 static wide bell_mass(wide a, wide from, wide width)
 {
     wide sum = 0, t = 0;

@@ -429,6 +429,7 @@ int main(void)
     const buffon_points owen = buffon_points_sobol(BUFFON_SCRAMBLE_OWEN);
     const buffon_points linear = buffon_points_sobol(BUFFON_SCRAMBLE_LINEAR);
     const buffon_points none = buffon_points_sobol(BUFFON_SCRAMBLE_NONE);
+    const buffon_points median = buffon_points_sobol_median();
     const buffon_points net = buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN);
     test_coverage();
     test_stopping(8);
@@ -441,6 +442,8 @@ int main(void)
         test_same(&solved[k], &owen, "Owen");
         test_same(&solved[k], &linear, "linear");
         test_same(&solved[k], &net, "net");
+        if (solved[k].solve != problem_components) /* it asks for covariances */
+            test_same(&solved[k], &median, "median");
     }
     test_same(&solved[0], &none, "none");
     test_reuse();

@@ -369,7 +369,7 @@ static void test_powers(void)
         const double edge[] = {0, 1, 1e15, 0x1p-1074, 0.5, 2, 3e7};
         const double power = k % 3 == 0 ? edge[k / 3 % 7] : any(&rng, k % 3 == 1 ? -60 : -3, 49);
         const buffon_density g = buffon_hemisphere_power(power);
-        double u[2], x[3], pdf, again, log_pdf, v[2] = {0};
+        double u[2], x[3], pdf = NAN, again = NAN, log_pdf = NAN, v[2] = {0};
         wide c, s;
         grid_pair(u, &rng, k);
         if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK ||

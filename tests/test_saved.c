@@ -241,7 +241,7 @@ static void test_forged(void)
         const char *name;
         size_t word;
         uint64_t value;
-    } shape[] = {{"kind", 4, 3},           {"design", 5, 6},
+    } shape[] = {{"kind", 4, 3},           {"design", 5, 7},
                  {"no components", 6, 0},  {"too many components", 6, (UINT64_C(1) << 20) + 1},
                  {"outputs", 7, 2},        {"covariance", 8, 2},
                  {"constant", 9, 2},       {"no strata", 10, 0},

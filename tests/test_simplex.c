@@ -264,6 +264,18 @@ static void test_pieces(size_t edges, int box, const char *name)
     }
 }
 
+/* Corners whose differences are no doubles: twice the area is 2^-50 - 2^-60 - 2^-110. */
+static void test_needle(void)
+{
+    const double a[2] = {1, 0}, b[2] = {0x1p-60, 1}, c[2] = {0, 1 + 0x1p-50};
+    const double exact = 2 / (0x1p-50 - 0x1p-60);
+    const double point[2] = {0, 1};
+    const buffon_density g = buffon_triangle_flat(a, b, c);
+    double pdf;
+    tap_ok(buffon_density_pdf(&pdf, point, 1, &g) == BUFFON_OK && fabs(pdf / exact - 1) < 4e-16,
+           "the area of a needle is that of its corners, not of rounded edges");
+}
+
 /* Back to uniforms and to points again; and the uniforms themselves, but where a corner is near,
  * which determines them badly. */
 static void test_way_back(void)
@@ -318,12 +330,15 @@ static void test_edges(void)
     }
     tap_ok(good, "a point 1e-13 off the segment is not on it, one 2e-15 off is");
     x[0] = 0.75;
-    x[1] = 2.5 + 1e-13;
     x[2] = 4.5;
-    good = buffon_density_pdf(pdf, x, 1, &triangle) == BUFFON_OK && pdf[0] == 0;
+    good = 1;
+    for (int k = -1; k <= 1; k += 2) {
+        x[1] = 2.5 + k * 1e-13;
+        good &= buffon_density_pdf(pdf, x, 1, &triangle) == BUFFON_OK && pdf[0] == 0;
+    }
     x[1] = 2.5;
     good &= buffon_density_pdf(pdf, x, 1, &triangle) == BUFFON_OK && pdf[0] == 1.0 / 6;
-    tap_ok(good, "a point 1e-13 off the triangle is not on it, g = 1 / area");
+    tap_ok(good, "a point 1e-13 off the triangle, on either side, is not on it, g = 1 / area");
 }
 
 static void test_refused(void)
@@ -370,6 +385,7 @@ int main(void)
     test_pieces(3, 0, "tetrahedron");
     test_pieces(2, 1, "parallelogram");
     test_pieces(3, 1, "parallelepiped");
+    test_needle();
     test_way_back();
     test_edges();
     test_refused();

@@ -166,6 +166,22 @@ static void test_solid_angles(void)
         const double got = buffon_solid_angle_parallelogram(s.from, s.corner, s.e1, s.e2);
         raise_to(&quad, (double)fabsl(got - exact) / ulp(exact));
     }
+    for (int k = 0; k < DRAWS / 4; k++) {
+        /* Corners with more digits than their distance leaves room for. */
+        const double o[3] = {0x1p29, 0x1p29, 0x1p29};
+        double c[3][3];
+        wide at[3], e1[3], e2[3];
+        for (int j = 0; j < 3; j++) {
+            for (int i = 0; i < 3; i++)
+                c[i][j] = whole(&rng, 0x1p30) * 0x1p-30;
+            at[j] = (wide)c[0][j] - o[j];
+            e1[j] = (wide)c[1][j] - c[0][j];
+            e2[j] = (wide)c[2][j] - c[0][j];
+        }
+        const wide exact = solid_angle(at, e1, e2);
+        const double got = buffon_solid_angle_triangle(o, c[0], c[1], c[2]);
+        raise_to(&worst, (double)fabsl(got - exact) / ulp(exact));
+    }
     if (LDBL_MANT_DIG >= 64) {
         report(worst, 4, "solid angle of triangles 0.1 to 1e7 sizes away, in ulp");
         report(flat, 4, "solid angle nearly in the plane, in ulp");
@@ -414,6 +430,28 @@ static void test_directions(int rectangle)
     }
 }
 
+/* So far off that all of it is one double or two. */
+static void test_specks(void)
+{
+    const double o[3] = {0}, a[3] = {1e17, 0, 3e16}, e1[3] = {0, 1, 0}, e2[3] = {-0.3, 0, 1};
+    const double b[3] = {1e17, 1, 3e16}, c[3] = {1e17, 0, 3e16 + 8};
+    const buffon_density g[2] = {buffon_spherical_triangle(o, a, b, c),
+                                 buffon_spherical_rectangle(o, a, e1, e2)};
+    int good = 1;
+    for (int k = 0; k < 2; k++) {
+        const double u[2] = {0.25, 0.75};
+        double x[3], y[3], v[2], pdf, again;
+        good &= buffon_density_sample(x, &pdf, u, 1, &g[k]) == BUFFON_OK;
+        good &= buffon_density_pdf(&again, x, 1, &g[k]) == BUFFON_OK && again == pdf;
+        good &= buffon_density_invert(v, x, 1, &g[k]) == BUFFON_OK;
+        good &= v[0] > 0 && v[0] < 1 && v[1] > 0 && v[1] < 1;
+        for (int j = 0; j < 3; j++)
+            y[j] = -x[j];
+        good &= buffon_density_pdf(&again, y, 1, &g[k]) == BUFFON_OK && again == 0;
+    }
+    tap_ok(good, "a speck 1e17 sizes away is seen there, and not behind");
+}
+
 static void test_refused(void)
 {
     const double o[3] = {0}, x[3] = {1, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 3};
@@ -458,6 +496,7 @@ int main(void)
     test_rectangle_places(1, 1e6, 0.01, 2e-14);
     test_directions(0);
     test_directions(1);
+    test_specks();
     test_refused();
     return tap_done();
 }

@@ -71,6 +71,7 @@ static const char gallery_style[] =
     ".area{stroke:none;fill-opacity:.42}\n"
     ".net{fill:none;stroke:var(--soft);stroke-width:8;stroke-opacity:.6;stroke-linejoin:round}"
     ".net.far{stroke-opacity:.22}\n"
+    ".hair{fill:none;stroke-width:1.1;stroke-linecap:round}.hair.far{stroke-opacity:.25}\n"
     ".ball{fill:var(--grid);fill-opacity:.55;stroke:var(--rule);stroke-width:1}\n"
     ".c1{stroke:var(--c1);color:var(--c1)}.c2{stroke:var(--c2);color:var(--c2)}"
     ".c3{stroke:var(--c3);color:var(--c3)}.c4{stroke:var(--c4);color:var(--c4)}"

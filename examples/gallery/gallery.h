@@ -8,7 +8,7 @@
 
 /* How a density is looked at. The names below make one for a line of entries.h. */
 typedef struct view {
-    enum { VIEW_LINE, VIEW_BARS, VIEW_PLANE, VIEW_SPHERE, VIEW_SPACE } kind;
+    enum { VIEW_LINE, VIEW_BARS, VIEW_PLANE, VIEW_SPHERE, VIEW_SPACE, VIEW_FRAMES } kind;
     double a, b, c, d; /* what is seen */
     int extra;         /* LINE: decades of a log scale; PLANE: shades; SPHERE: no net */
 } view;
@@ -29,6 +29,8 @@ typedef struct view {
 #define SKY ((view){VIEW_SPHERE, 0, 0, 0, 1, 1})
 /* A surface or a solid in space, seen from afar: what lies within r of (x, y, z). */
 #define SPACE(x, y, z, r) ((view){VIEW_SPACE, x, y, z, r, 0})
+/* Rotations as quaternions: the images of +z, with hairs along the images of +x. */
+#define FRAMES ((view){VIEW_FRAMES, 0, 0, 0, 1, 0})
 
 /* Appends a drawing of g in the colour of the class. */
 void view_draw(text *out, const buffon_density *g, view v, const char *class);

@@ -141,6 +141,24 @@ static void view_dots(text *out, const char *class, dot *d, size_t n, const doub
         text_put(out, "\"/>");
 }
 
+/* How many of the dots to draw, so that they stay apart: as many as suit the area on which they
+ * fall. The first of even points are even too. */
+static size_t view_enough(const dot *d, size_t n)
+{
+    enum { ACROSS = 48 };
+    unsigned char taken[ACROSS * ACROSS] = {0};
+    size_t cells = 0;
+    for (size_t i = 0; i < n; i++) {
+        int x = d[i].x * ACROSS / (10 * VIEW_SIDE), y = d[i].y * ACROSS / (10 * VIEW_SIDE);
+        if (x < 0 || x >= ACROSS || y < 0 || y >= ACROSS || taken[y * ACROSS + x])
+            continue;
+        taken[y * ACROSS + x] = 1;
+        cells++;
+    }
+    size_t enough = cells + cells / 2;
+    return n < enough ? n : enough;
+}
+
 /* Where a point of the density is drawn, and how far towards the eye it lies: -1 to 1 or so. */
 typedef struct camera {
     double size[2], middle[2], scale, depth;
@@ -295,7 +313,7 @@ static void view_plane(text *out, const buffon_density *g, view v, const char *c
         view_shades(out, &c, g, v, class);
     else
         view_net(out, &c, g);
-    view_dots(out, class, d, seen, size, opacity);
+    view_dots(out, class, d, view_enough(d, seen), size, opacity);
     text_put(out, "</svg>\n");
     free(d);
     free(x);
@@ -303,23 +321,39 @@ static void view_plane(text *out, const buffon_density *g, view v, const char *c
 
 /* ---- in space ---- */
 
-/* Points of a surface or a solid; the nearer, the larger and darker. */
-static void view_space(text *out, const buffon_density *g, view v, const char *class)
+/* From a little above, and from the side where the lamp of entries.h is. */
+static camera view_camera(view v)
 {
-    static const double size[] = {1.7, 1.8, 1.9, 2, 2.1, 2.2, 2.4, 2.6};
-    static const double sphere[] = {0.28, 0.31, 0.35, 0.4, 0.7, 0.76, 0.83, 0.9};
-    static const double solid[] = {0.3, 0.38, 0.46, 0.54, 0.63, 0.72, 0.81, 0.9};
-    text eye = {0};
-    globe turned = globe_eye(&eye, VIEW_SIDE, 1, 24, -62);
+    text nothing = {0};
+    globe eye = globe_eye(&nothing, VIEW_SIDE, 1, 24, -62);
     camera c = {.size = {VIEW_SIDE, VIEW_SIDE}, .middle = {VIEW_SIDE / 2, VIEW_SIDE / 2}};
     c.scale = (VIEW_SIDE / 2 - 12) / v.d;
     c.depth = 1 / v.d;
     for (int k = 0; k < 3; k++) {
         c.centre[k] = k == 0 ? v.a : k == 1 ? v.b : v.c;
-        c.right[k] = turned.right[k];
-        c.up[k] = turned.up[k];
-        c.towards[k] = turned.towards[k];
+        c.right[k] = eye.right[k];
+        c.up[k] = eye.up[k];
+        c.towards[k] = eye.towards[k];
     }
+    return c;
+}
+
+static void view_begin(text *out, const camera *c, int ball)
+{
+    text_add(out, "<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Points in space\">",
+             c->size[0], c->size[1]);
+    if (ball)
+        text_add(out, "<circle class=\"ball\" cx=\"%g\" cy=\"%g\" r=\"%g\"/>", c->middle[0],
+                 c->middle[1], c->scale);
+}
+
+/* Points of a surface or a solid; the nearer, the larger and darker. */
+static void view_space(text *out, const buffon_density *g, view v, const char *class)
+{
+    static const double size[] = {1.7, 1.8, 1.9, 2, 2.1, 2.2, 2.4, 2.6};
+    static const double sphere[] = {0.28, 0.31, 0.35, 0.4, 0.7, 0.76, 0.83, 0.9};
+    static const double solid[] = {0.4, 0.47, 0.54, 0.61, 0.68, 0.75, 0.82, 0.9};
+    camera c = view_camera(v);
     double *x = view_points(g, VIEW_DOTS);
     dot *d = need_memory(VIEW_DOTS * sizeof *d);
     size_t seen = 0;
@@ -331,17 +365,41 @@ static void view_space(text *out, const buffon_density *g, view v, const char *c
         if (hypot(at[0] - c.middle[0], at[1] - c.middle[1]) <= VIEW_SIDE)
             d[seen++] = (dot){(int)lround(10 * at[0]), (int)lround(10 * at[1]), layer};
     }
-    text_add(out, "<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Points in space\">",
-             c.size[0], c.size[1]);
-    if (v.kind == VIEW_SPHERE)
-        text_add(out, "<circle class=\"ball\" cx=\"%g\" cy=\"%g\" r=\"%g\"/>", c.middle[0],
-                 c.middle[1], c.scale);
+    view_begin(out, &c, v.kind == VIEW_SPHERE);
     if (!v.extra)
         view_net(out, &c, g);
-    view_dots(out, class, d, seen, size, v.kind == VIEW_SPHERE ? sphere : solid);
+    view_dots(out, class, d, view_enough(d, seen), size, v.kind == VIEW_SPHERE ? sphere : solid);
     text_put(out, "</svg>\n");
     free(d);
     free(x);
+}
+
+/* Those on the far side first. */
+static void view_frames(text *out, const buffon_density *g, view v, const char *class)
+{
+    enum { HAIRS = 600 };
+    static const double pole[] = {0, 0, 1}, side[] = {1, 0, 0};
+    camera c = view_camera(v);
+    double *q = view_points(g, HAIRS);
+    view_begin(out, &c, 1);
+    for (int near = 0; near < 2; near++) {
+        text_add(out, "<path class=\"hair %s%s\" d=\"", class, near ? "" : " far");
+        for (size_t i = 0; i < HAIRS; i++) {
+            double turn[4], root[3], along[3], tip[3], from[2], to[2];
+            for (size_t k = 0; k < 4; k++)
+                turn[k] = q[k * HAIRS + i];
+            buffon_rotation_apply(root, pole, turn);
+            buffon_rotation_apply(along, side, turn);
+            for (int k = 0; k < 3; k++)
+                tip[k] = root[k] + 0.09 * along[k];
+            camera_see(&c, tip, to);
+            if ((camera_see(&c, root, from) >= 0) == near)
+                text_add(out, "M%.1f %.1fL%.1f %.1f", from[0], from[1], to[0], to[1]);
+        }
+        text_put(out, "\"/>");
+    }
+    text_put(out, "</svg>\n");
+    free(q);
 }
 
 void view_draw(text *out, const buffon_density *g, view v, const char *class)
@@ -350,6 +408,7 @@ void view_draw(text *out, const buffon_density *g, view v, const char *class)
     case VIEW_LINE: view_line(out, g, v, class); break;
     case VIEW_BARS: view_bars(out, g, v, class); break;
     case VIEW_PLANE: view_plane(out, g, v, class); break;
+    case VIEW_FRAMES: view_frames(out, g, v, class); break;
     default: view_space(out, g, v, class); break;
     }
 }

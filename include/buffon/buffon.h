@@ -5,8 +5,9 @@
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
- *     layer 2  inversion  exponential  normal  laws  gamma  beta  student
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student  counts
  *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
  *
@@ -15,6 +16,7 @@
 #ifndef BUFFON_BUFFON_H
 #define BUFFON_BUFFON_H
 
+#include "affine.h"
 #include "alias.h"
 #include "api.h"
 #include "ball.h"
@@ -23,6 +25,7 @@
 #include "box.h"
 #include "cap.h"
 #include "cap_cosine.h"
+#include "counts.h"
 #include "cpu.h"
 #include "cylinder.h"
 #include "density.h"
@@ -40,6 +43,7 @@
 #include "inversion.h"
 #include "laws.h"
 #include "math.h"
+#include "mixture.h"
 #include "normal.h"
 #include "parallelogram.h"
 #include "partial.h"
@@ -59,6 +63,7 @@
 #include "stratified.h"
 #include "student.h"
 #include "table.h"
+#include "truncated.h"
 #include "uniform.h"
 #include "verify_density.h"
 #include "version.h"

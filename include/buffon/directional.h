@@ -68,7 +68,7 @@ BUFFON_API buffon_density buffon_von_mises_fisher(double kappa, const double axi
  *  Exact:   with mean 0, x within 2^-48 of itself for every kappa and u1, the smallest too, about
  *           another mean that much of x - mean and one rounding more. g within 8 + 12 y ulp for
  *           y = 2 kappa sin^2((x - mean) / 2) < 700 (tests/test_directional.c)
- *  Cost:    150 to 300 ns a point
+ *  Cost:    100 to 200 ns a point
  *  Source:  R. von Mises (1918), Ueber die Ganzzahligkeit der Atomgewichte
  *  Since:   0.1
  */

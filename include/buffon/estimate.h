@@ -13,15 +13,16 @@ typedef enum buffon_interval_kind {
     BUFFON_INTERVAL_NONE = 0,            /* nothing is known: -infinity to infinity */
     BUFFON_INTERVAL_STUDENT = 1,         /* value -+ t std_error */
     BUFFON_INTERVAL_CLOPPER_PEARSON = 2, /* exact for hits of independent points */
-    BUFFON_INTERVAL_EXACT = 3            /* the caller said that f/g is constant */
+    BUFFON_INTERVAL_EXACT = 3,           /* the caller said that f/g is constant */
+    BUFFON_INTERVAL_ORDER = 4            /* a median's: between two replicates' estimates */
 } buffon_interval_kind;
 
 /** An estimate with its error and its doubts. Written whole by the library; copy freely.
  *
  *  The interval covers the true value with the stated confidence, to the accuracy of the central
- *  limit theorem (the Clopper-Pearson one: always). After a run that could stop early it covers all
- *  the looks together, so it is wider than value -+ 2 std_error. What no sample saw, nothing here
- *  can show.
+ *  limit theorem (the Clopper-Pearson one: always; for a net and a median see points.h). After a
+ *  run that could stop early it covers all the looks together, so it is wider than value -+ 2
+ *  std_error. What no sample saw, nothing here can show.
  *
  *  bad_index is the first failure in the order of evaluation, whatever the threads. That is the
  *  lowest index, but with strata or replicates the first in (block, cell) order; and where a

@@ -25,7 +25,14 @@ typedef enum buffon_design {
      * aligned blocks of an eighth, with 7 degrees of freedom. That is a rule of thumb: the blocks
      * are not independent. It holds for points whose blocks are even and make up for each other,
      * so that the whole is nearer than eight independent blocks would be. */
-    BUFFON_DESIGN_NET = 5
+    BUFFON_DESIGN_NET = 5,
+    /* The value is the median of the estimates of independent replicates, an odd number of them,
+     * at least 5. The interval is from the j-th smallest of these to the j-th largest, which miss
+     * the median of their law with the probability that fewer than j of as many fair coins show
+     * heads, or tails. The standard error is half the interval of 95 % over what that is in
+     * standard errors of the normal law. No covariances. The median is not unbiased: it is for
+     * estimates of which most are near and few far off. */
+    BUFFON_DESIGN_MEDIAN = 6
 } buffon_design;
 
 /** The stretch of points asked for: first, ..., first + n - 1 of one replicate. */

@@ -45,9 +45,10 @@ BUFFON_API double buffon_solid_angle_parallelogram(const double from[3], const d
  *  In:      from[3]           the observer, not in the plane of the triangle
  *           a[3], b[3], c[3]  the corners
  *  Law:     with C on the edge from a to c such that the triangle a b C has the part u1 of the
- *           solid angle, x is between b (u2 = 0) and C (u2 = 1), with 1 - x . b uniform. g = 1 /
- *           solid angle for unit vectors that meet the triangle, 0 for others and where |x|^2 is further
- *           than 2^-20 from 1. Edges count as inside, with 2^-48 to spare for rounding
+ *           solid angle, x is between b (u2 = 0) and C (u2 = 1), with 1 - x . b uniform.
+ *           g = 1 / solid angle for unit vectors that meet the triangle, 0 for others and where
+ *           |x|^2 is further than 2^-20 from 1. Edges count as inside, with 2^-48 to spare for
+ *           rounding
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also where the
  *           solid angle is 0, or its inverse exceeds the doubles

@@ -93,7 +93,8 @@ static void time_prepare(const char *name, buffon_scramble scramble)
 
 /* ---- errors ------------------------------------------------------------------------------- */
 
-enum { SAMPLES = 1 << 16, SEEDS = 30, MOST_DIM = 20, KINDS = 5 };
+enum { SAMPLES = 1 << 16, SEEDS = 30, MOST_DIM = 20, KINDS = 6 };
+enum { MEDIAN_SAMPLES = 15 << 12 }; /* 15 replicates of a power of two */
 
 typedef struct smooth {
     const char *name;
@@ -150,7 +151,9 @@ static double error_of(double *bar, const smooth *s, const buffon_points *with)
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         buffon_estimate e;
         const buffon_integrand f = {.scalar = call, .dim = s->dim, .ctx = (void *)s};
-        const buffon_run run = {.samples = SAMPLES, .seed = seed, .points = with};
+        const int median = with->design == BUFFON_DESIGN_MEDIAN;
+        const buffon_run run = {
+            .samples = median ? MEDIAN_SAMPLES : SAMPLES, .seed = seed, .points = with};
         bench_must(buffon_uniform(&e, &f, lo, hi, &run));
         sum += pow(e.value / s->exact - 1, 2);
         bars += pow(e.std_error / s->exact, 2);
@@ -160,21 +163,23 @@ static double error_of(double *bar, const smooth *s, const buffon_points *with)
 }
 
 /* Random points, 8 replicates with the nested scramble and with the shift, one net with the nested
- * scramble and with the linear one; of the nets the error that they state, too. Leaves the gains
- * over random points. */
+ * scramble and with the linear one, the median of 15 linear ones; of the last three the error that
+ * they state, too. Leaves the gains over random points. */
 static void print_errors(double gain[KINDS], const smooth *s)
 {
-    buffon_points with[KINDS] = {buffon_points_random(), buffon_points_sobol(BUFFON_SCRAMBLE_OWEN),
+    buffon_points with[KINDS] = {buffon_points_random(),
+                                 buffon_points_sobol(BUFFON_SCRAMBLE_OWEN),
                                  buffon_points_sobol(BUFFON_SCRAMBLE_SHIFT),
                                  buffon_points_sobol_net(BUFFON_SCRAMBLE_OWEN),
-                                 buffon_points_sobol_net(BUFFON_SCRAMBLE_LINEAR)};
+                                 buffon_points_sobol_net(BUFFON_SCRAMBLE_LINEAR),
+                                 buffon_points_sobol_median()};
     double error[KINDS], bar;
     printf("  %-26s d = %-3zu", s->name, s->dim);
     for (size_t k = 0; k < KINDS; k++) {
         error[k] = error_of(&bar, s, &with[k]);
         gain[k] = error[0] / error[k];
         printf(k > 0 ? "  %8.1e %8.1fx" : "  %8.1e", error[k], gain[k]);
-        if (with[k].design == BUFFON_DESIGN_NET)
+        if (with[k].design >= BUFFON_DESIGN_NET)
             printf(" +- %.1e", bar);
     }
     printf("\n");
@@ -192,8 +197,9 @@ static void compare_errors(void)
 {
     double gain[KINDS], logs[KINDS] = {0};
     printf("\nrelative error at N = %d, rms over %d seeds, and how many times smaller than with "
-           "random points\n  %-34s  %8s  %18s  %18s  %29s  %29s\n",
-           SAMPLES, SEEDS, "", "random", "8 replicates", "8, shift", "one net", "one, linear");
+           "random points\n  %-34s  %8s  %18s  %18s  %29s  %29s  %29s\n",
+           SAMPLES, SEEDS, "", "random", "8 replicates", "8, shift", "one net", "one, linear",
+           "median of 15");
     for (size_t k = 0; k < COUNT(genz); k++) {
         print_errors(gain, &genz[k]);
         for (size_t i = 0; i < KINDS; i++)

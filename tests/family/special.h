@@ -32,8 +32,25 @@ static void family_beta(void)
     family_add("t 1e10", buffon_student_t(1e10));
 }
 
+/* Points are whole numbers. */
+static family_case *family_number(family_case *one)
+{
+    one->how.discrete = 1;
+    return one;
+}
+
 static void family_counts(void)
 {
+    family_number(family_plain("bernoulli", buffon_bernoulli(0.3)));
+    family_number(family_plain("geometric", buffon_geometric(0.2)));
+    family_number(family_plain("binomial 20", buffon_binomial(20, 0.3)));
+    family_number(family_plain("binomial 1e6", buffon_binomial(1000000, 0.3)));
+    family_number(family_plain("poisson 10", buffon_poisson(10)));
+    family_number(family_plain("poisson 1e6", buffon_poisson(1e6)));
+    family_number(family_add("geometric, rare", buffon_geometric(1e-14)))->unseen = 1;
+    family_number(family_add("binomial, rare", buffon_binomial(UINT64_C(1) << 50, 1e-15)));
+    family_number(family_add("binomial, often", buffon_binomial(1000, 0.999)));
+    family_number(family_add("poisson 1e15", buffon_poisson(1e15)))->unseen = 1;
 }
 
 static void family_of_special(void)
