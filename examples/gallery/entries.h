@@ -128,6 +128,14 @@ ROOM(guide, buffon_guide_size(12));
 ENTRY("Guide table", "The same weights by inversion: items keep their order.", BARS(0, 11),
       buffon_guide(guide, guide_size, odds, 12));
 
+ENTRY("Bernoulli", "Yes or no.", BARS(0, 1), buffon_bernoulli(0.3));
+
+ENTRY("Binomial", "How many of n are yes.", BARS(0, 20), buffon_binomial(20, 0.4));
+
+ENTRY("Geometric", "How many noes before the first yes.", BARS(0, 16), buffon_geometric(0.25));
+
+ENTRY("Poisson", "Counts of rare things: clicks, calls, photons.", BARS(0, 14), buffon_poisson(4.5));
+
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
       "same chance.");
@@ -142,16 +150,6 @@ ENTRY("Disk", "Polar coordinates: the radius is the square root of a uniform.",
 ENTRY("Disk, concentric", "Squares become circles; neighbours stay neighbours.",
       PLANE(-1.1, 1.1, -1.1, 1.1), buffon_disk_concentric(1));
 
-ENTRY("Circle", "The edge alone, by its length.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_circle(1));
-
-ENTRY("Annulus", "A ring, however thin: its area is a product, not a difference.",
-      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_annulus(0.6, 1));
-
-ENTRY("Sector", "Part of a ring, between two angles.", PLANE(-1.1, 1.1, -1.1, 1.1),
-      buffon_disk_sector(0.3, 1, -0.5, 2.2));
-
-ENTRY("Ellipse", "The concentric disk, drawn out.", PLANE(-1.1, 1.1, -1.1, 1.1),
-      buffon_ellipse(1, 0.6));
 ENTRY("Circle", "Its points by length.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_circle(1));
 
 ENTRY("Ring", "However thin, it keeps its digits.", PLANE(-1.1, 1.1, -1.1, 1.1),
@@ -163,14 +161,6 @@ ENTRY("Sector", "Between two circles and two angles.", PLANE(-1.1, 1.1, -1.1, 1.
 ENTRY("Ellipse", "A disk, stretched.", PLANE(-1.1, 1.1, -1.1, 1.1), buffon_ellipse(1, 0.5));
 
 const double west[] = {-1, -0.7}, east[] = {1, -0.5}, north[] = {-0.3, 0.9};
-ENTRY("Triangle in the plane", "A root and a straight line; all meets in one corner.",
-      PLANE(-1.1, 1.1, -1.1, 1.1), buffon_triangle_flat(west, east, north));
-ENTRY("Bilinear", "Four heights at the corners of a square.", FIELD(-0.1, 1.1, -0.1, 1.1),
-      buffon_bilinear(1, 4, 3, 0));
-
-const double pixels[] = {1, 0, 3, 1, 2, 1, 0, 2, 6, 3, 2, 0, 1, 2, 1, 0};
-ENTRY("Grid", "An image: cells, each of its own height.", FIELD(-0.1, 1.1, -0.1, 1.1),
-      buffon_piecewise_grid(room[3], sizeof room[3], pixels, 4, 4));
 ENTRY("Triangle in the plane", "Three corners, every point alike.", PLANE(-1.1, 1.1, -1.1, 1.1),
       buffon_triangle_flat(west, east, north));
 
@@ -190,21 +180,6 @@ ENTRY("Power of the cosine", "A glossy surface: the higher the power, the narrow
 ENTRY("Cap", "A lamp that is a sphere, the sun, a cone of directions.", SPHERE,
       buffon_cap_about(0.8, lamp));
 
-ENTRY("Zone", "Between two planes, or two angles from an axis.", SPHERE,
-      buffon_zone(0.1, 0.5, lamp));
-
-ENTRY("All but a cap", "The sphere, with the smallest hole kept out.", SPHERE,
-      buffon_cap_complement_angle(0.7, lamp));
-
-ENTRY("Power of the cosine", "A spot of light, from a wide one to a beam.", SPHERE,
-      buffon_hemisphere_power(20));
-
-const double up[] = {0, 0, 1}, setting[] = {3, -2, 0.3};
-ENTRY("Cosine cap", "A cap as a surface sees it: what grazes counts less.", SPHERE,
-      buffon_cap_cosine(0.7, lamp, up));
-
-ENTRY("Cosine cap, setting", "The horizon cuts it: nothing below, little above.", SPHERE,
-      buffon_cap_cosine(0.6, setting, up));
 ENTRY("Zone", "Between two parallels.", SPHERE, buffon_zone(-0.25, 0.5, up));
 
 ENTRY("All but a cap", "What a lamp leaves.", SPHERE, buffon_cap_complement_angle(0.9, lamp));
@@ -215,14 +190,6 @@ ENTRY("Henyey and Greenstein", "How light goes on that met a particle of dust.",
 ENTRY("von Mises and Fisher", "The normal law of directions.", SPHERE,
       buffon_von_mises_fisher(10, lamp));
 
-const double eye[] = {0, 0, 0}, near[] = {1, -1, -0.3}, side[] = {1.2, 0.9, 0.2};
-const double top[] = {0.2, 0.3, 1.5}, frame[] = {0.9, -1, -0.4}, along[] = {0, 2.2, 0};
-const double upward[] = {0, 0, 1.3};
-ENTRY("Triangle seen from a point", "A lamp of three corners, even to the eye.", SPHERE,
-      buffon_spherical_triangle(eye, near, side, top));
-
-ENTRY("Rectangle seen from a point", "A window: strips of even solid angle.", SPHERE,
-      buffon_spherical_rectangle(eye, frame, along, upward));
 const double low_lamp[] = {3, -2.5, 0.8};
 ENTRY("Cosine cap", "What a lamp near the horizon gives a surface: its cosine, nothing below.",
       SPHERE, buffon_cap_cosine(0.8, low_lamp, up));
@@ -268,7 +235,7 @@ ENTRY("Ball", "By volume.", SKY, buffon_ball(1));
 ENTRY("Shell", "Between two spheres.", SKY, buffon_shell(0.9, 1));
 
 /* ---- more dimensions ---- */
-GROUP("More dimensions", "Two coordinates of many, or all of three.");
+GROUP("Many dimensions, and densities of densities", "Two coordinates are shown of many.");
 
 ENTRY("Sphere of four dimensions", "Its first two coordinates fill a disk evenly.",
       PLANE(-1.1, 1.1, -1.1, 1.1), buffon_sphere_n(4));
@@ -281,5 +248,23 @@ ENTRY("Product of two normals", "Independent coordinates, each by its own law.",
       FIELD(-3, 3, -3, 3), buffon_density_product(normals, 2));
 
 const buffon_density round[] = {buffon_disk(0.7), buffon_segment(-0.8, 0.8)};
+const buffon_density bell = buffon_density_product(normals, 2);
+const double slant[] = {0.9, -0.5, 0.6, 1.1}, shift[] = {0.2, 0.1};
+ENTRY("Affine map", "Any density of the plane or of space, stretched, slanted and shifted.",
+      FIELD(-3, 3, -3, 3), buffon_affine(&bell, slant, shift));
+
+const buffon_density modes[] = {buffon_normal(-1.2, 0.5), buffon_normal(1.1, 0.8)};
+const double weights[] = {1, 2};
+ENTRY("Mixture", "One of several laws, each with its weight; the first uniform serves twice.",
+      LINE(-4, 4), buffon_mixture(modes, weights, 2));
+
+const buffon_density logistic = buffon_logistic(0, 1);
+ENTRY("Truncated", "Any law on the line, kept between two bounds.", LINE(-3, 5),
+      buffon_truncated(&logistic, -1, 4));
+
+const buffon_density upright = buffon_hemisphere_power(30);
+ENTRY("Turned", "Any density in space about another axis.", SPHERE,
+      buffon_turned_to(&upright, lamp));
+
 ENTRY("Product of disk and segment", "A solid cylinder.", SPACE(0, 0, 0, 1.05),
       buffon_density_product(round, 2));
