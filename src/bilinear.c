@@ -95,8 +95,8 @@ buffon_density buffon_bilinear(double v00, double v10, double v01, double v11)
 
 /* ---- a grid of nodes ------------------------------------------------------------------------ */
 
-/* The block: g at the nodes; what each row integrates to, which is the marginal at its y; the
- * bounds of the strips between rows; for each row the bounds of its pieces; the strips' index. */
+/* The block: g at the nodes; what rows integrate to, up to a common factor; the bounds of the
+ * strips between rows; for each row the bounds of its pieces; the strips' index. */
 typedef struct bilinear_grid {
     size_t columns, rows;
     unsigned bits;
@@ -308,8 +308,6 @@ static buffon_status bilinear_grid_make(buffon_priv_table *table, const double *
     const double total = bilinear_shares(grid.strip, grid.row, rows);
     for (size_t k = 0; k < columns * rows; k++)
         grid.node[k] /= total;
-    for (size_t r = 0; r < rows; r++)
-        grid.row[r] /= total;
     buffon_priv_guide_make(grid.first, grid.bits, grid.strip, rows - 1);
     buffon_priv_table_close(table);
     return BUFFON_OK;

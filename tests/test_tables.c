@@ -525,6 +525,20 @@ static void test_surface(void)
         good &= fabs(x[0] - y[0]) <= 0x1p-49 && fabs(x[1] - y[1]) <= 0x1p-50;
     }
     tap_ok(good, "surface: of one cell, as buffon_bilinear");
+    /* Where g is 0 on a line, at the uniforms that lead there, and past the last column with any. */
+    const double cross[9] = {1, 0, 1, 0, 0, 0, 1, 0, 1}, left[8] = {1, 2, 0, 0, 3, 1, 0, 0};
+    const double gap[8] = {1, 0, 1, 1, 1, 0, 1, 1}, half[2] = {0.5, 0.5}, third[2] = {1 / 3.0, 0.5};
+    const buffon_density c = buffon_bilinear_grid(block, sizeof block, cross, 3, 3);
+    double x[2], pdf;
+    good = buffon_density_sample(x, &pdf, half, 1, &c) == BUFFON_OK && pdf > 0;
+    const buffon_density third_at = buffon_bilinear_grid(block, sizeof block, gap, 4, 2);
+    good &= buffon_density_pdf(&pdf, third, 1, &third_at) == BUFFON_OK && pdf > 0 && pdf < 1e-15;
+    const buffon_density l = buffon_bilinear_grid(block, sizeof block, left, 4, 2);
+    for (int i = 0; i < 2000; i++) {
+        const double u[2] = {1 - 0x1p-53, buffon_rng_next(&rng)};
+        good &= buffon_density_sample(x, &pdf, u, 1, &l) == BUFFON_OK && pdf > 0 && x[0] < 0.67;
+    }
+    tap_ok(good, "surface: lines and corners where g is 0 are not drawn");
 }
 
 /* ---- the sky ---- */
@@ -705,6 +719,31 @@ static void test_even_sky(void)
            "what is no direction has no pdf");
 }
 
+/* What memory held before is no part of a table. */
+static void test_clean(void)
+{
+    static unsigned char first[32 * 200], second[32 * 200];
+    const double w[35] = {0, 0, 0, 0, 0, 1, 0, 2, 0, 3, 0, 0, 0, 0, 0, 4, -0.0, 5};
+    int same = 1;
+    for (int t = 0; t < 7; t++) {
+        for (int k = 0; k < 2; k++) {
+            memset(block, k ? 0xff : 0x5a, sizeof block);
+            const buffon_density g =
+                t == 0   ? buffon_alias(block, sizeof block, w, 35)
+                : t == 1 ? buffon_guide(block, sizeof block, w, 35)
+                : t == 2 ? buffon_piecewise_constant(block, sizeof block, NULL, w, 35)
+                : t == 3 ? buffon_piecewise_linear(block, sizeof block, NULL, w, 35)
+                : t == 4 ? buffon_piecewise_grid(block, sizeof block, w, 5, 7)
+                : t == 5 ? buffon_bilinear_grid(block, sizeof block, w, 5, 7)
+                         : buffon_environment(block, sizeof block, w, 5, 7);
+            const size_t size = (size_t)((const buffon_priv_table *)g.data[0])->bytes;
+            memcpy(k ? second : first, block, size < sizeof first ? size : 0);
+            same &= k == 0 || memcmp(first, second, size) == 0;
+        }
+    }
+    tap_ok(same, "what memory held before is no part of a table");
+}
+
 /* ---- what is refused, and tables that travel ---- */
 
 static void test_refusals(void)
@@ -837,6 +876,7 @@ int main(void)
     test_surface();
     test_sky();
     test_even_sky();
+    test_clean();
     test_refusals();
     test_open();
     return tap_done();
