@@ -27,9 +27,10 @@ static double bilinear_height(const double *v, double x, double y)
 /* From the nearer end. */
 static double biramp_place(double a, double b, double u)
 {
-    double s, c;
+    double s, c, way;
     ramp_place(&s, &c, a, b, u, 1 - u);
-    return s < c ? s : 1 - c;
+    const size_t end = ramp_end(&way, s, c);
+    return (double)(int64_t)end + way;
 }
 
 static int bilinear_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
@@ -138,12 +139,12 @@ typedef struct bilinear_spot {
 
 static bilinear_spot bilinear_spot_of(double x, size_t n)
 {
-    const twofold at = twofold_product(x, (double)n);
-    bilinear_spot spot = {.k = at.hi < (double)n ? (size_t)at.hi : n - 1};
-    if (spot.k > 0 && (at.hi - (double)spot.k) + at.lo < 0)
-        spot.k--;
-    spot.s = (at.hi - (double)spot.k) + at.lo;
-    spot.c = ((double)(spot.k + 1) - at.hi) - at.lo;
+    const twofold at = twofold_product(x, (double)(int64_t)n);
+    const size_t cell = (size_t)(int64_t)at.hi;
+    bilinear_spot spot = {.k = cell < n ? cell : n - 1};
+    spot.k -= spot.k > 0 && (at.hi - (double)(int64_t)spot.k) + at.lo < 0;
+    spot.s = (at.hi - (double)(int64_t)spot.k) + at.lo;
+    spot.c = ((double)(int64_t)(spot.k + 1) - at.hi) - at.lo;
     return spot;
 }
 
@@ -151,9 +152,10 @@ static bilinear_spot bilinear_spot_of(double x, size_t n)
  * is 0 is none: t is at least what the generator's least uniform is of the whole. */
 static double bilinear_point(size_t k, size_t n, double a, double b, double t, double q)
 {
-    double s, c;
+    double s, c, way;
     ramp_place(&s, &c, a, b, t > 0x1p-53 ? t : 0x1p-53, q > 0x1p-53 ? q : 0x1p-53);
-    return (s < c ? (double)k + s : (double)(k + 1) - c) / (double)n;
+    const size_t end = ramp_end(&way, s, c);
+    return ((double)(int64_t)(k + end) + way) / (double)(int64_t)n;
 }
 
 /* The line across the grid at some y: its height at node i, and what lies below it of the whole, up
@@ -195,7 +197,7 @@ static double bilinear_across(const bilinear_line *line, double u, size_t pieces
     size_t k = 0;
     for (size_t left = pieces; left > 1;) {
         const size_t half = left / 2;
-        k += bilinear_below(line, k + half) <= t ? half : 0;
+        k += half & (0 - (size_t)(bilinear_below(line, k + half) <= t));
         left -= half;
     }
     const double lo = bilinear_below(line, k), hi = bilinear_below(line, k + 1);
