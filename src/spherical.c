@@ -23,6 +23,9 @@ enum {
     SPHERICAL_X0 = 10, /* and x1, y0, y1, z */
 };
 
+/* The most corners of a polygon. */
+#define SPHERICAL_MOST 16
+
 /* What the map of a rectangle needs, mirrored so that x1 >= 0 and y1 >= 0 and neither bound below 0
  * unless the other is above. */
 typedef struct spherical_view {
@@ -174,7 +177,7 @@ double buffon_solid_angle_parallelogram(const double from[3], const double corne
  * opposite. */
 typedef struct spherical_walls {
     size_t count;
-    double normal[4][3], corner[4][3], slack[4], middle[3];
+    double normal[SPHERICAL_MOST][3], corner[SPHERICAL_MOST][3], slack[SPHERICAL_MOST], middle[3];
 } spherical_walls;
 
 static double spherical_dot(const double a[3], const double b[3])
@@ -234,15 +237,21 @@ static double spherical_density(const buffon_density *g)
     return 0.5 * DENSITY_INV_PI / g->param[SPHERICAL_HALF];
 }
 
+static void spherical_weigh(double *pdf, const double *x, size_t n, const buffon_density *g,
+                            const spherical_walls *w)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double point[3] = {x[i], x[n + i], x[2 * n + i]};
+        pdf[i] = spherical_holds(w, point) ? spherical_density(g) : 0;
+    }
+}
+
 static void spherical_judge(double *pdf, const double *x, size_t n, const buffon_density *g,
                             double (*corner)[3], double (*side)[3], size_t count)
 {
     spherical_walls w;
     spherical_walls_make(&w, corner, side, count);
-    for (size_t i = 0; i < n; i++) {
-        const double point[3] = {x[i], x[n + i], x[2 * n + i]};
-        pdf[i] = spherical_holds(&w, point) ? spherical_density(g) : 0;
-    }
+    spherical_weigh(pdf, x, n, g, &w);
 }
 
 /* ---- triangle ----
@@ -633,4 +642,154 @@ void buffon_spherical_rectangle_along(double st[2], double u1, double u2, const 
         return;
     spherical_view_make(&r, g.param);
     spherical_along_scalar(&st[0], &st[1], u1, u2, &r);
+}
+
+/* ---- convex polygon ----
+ *
+ * A fan of triangles about corner 0: with the pole of each map there, the maps fit together where
+ * triangles meet. Triangles are made anew for each batch from the caller's corners. */
+
+typedef struct spherical_fan {
+    size_t count;
+    double half, start[SPHERICAL_MOST - 1], param[SPHERICAL_MOST - 2][BUFFON_DENSITY_PARAMS];
+} spherical_fan;
+
+static buffon_status spherical_fan_make(spherical_fan *f, const double from[3],
+                                        const double *corner, size_t count)
+{
+    f->count = count - 2;
+    f->half = 0;
+    for (size_t k = 0; k < f->count; k++) {
+        double distance[3];
+        const buffon_density one =
+            spherical_triangle_make(distance, from, corner + 3 * k + 3, corner, corner + 3 * k + 6);
+        if (one.status != BUFFON_OK)
+            return one.status;
+        memcpy(f->param[k], one.param, sizeof one.param);
+        f->start[k] = f->half;
+        f->half += one.param[SPHERICAL_HALF];
+    }
+    return BUFFON_OK;
+}
+
+/* Corners as unit vectors: of the first triangle corners 1, 0, 2, of the next ones the last. */
+static void spherical_fan_walls(spherical_walls *w, const spherical_fan *f)
+{
+    double corner[SPHERICAL_MOST][3], side[SPHERICAL_MOST][3];
+    const size_t count = f->count + 2;
+    memcpy(corner[0], f->param[0] + SPHERICAL_B, sizeof corner[0]);
+    memcpy(corner[1], f->param[0] + SPHERICAL_A, sizeof corner[1]);
+    for (size_t k = 0; k < f->count; k++)
+        memcpy(corner[k + 2], f->param[k] + SPHERICAL_C, sizeof corner[0]);
+    for (size_t k = 0; k < count; k++)
+        for (size_t j = 0; j < 3; j++)
+            side[k][j] = corner[(k + 1) % count][j] - corner[k][j];
+    spherical_walls_make(w, corner, side, count);
+}
+
+static int spherical_polygon_draw(double *x, double *pdf, const double *u, size_t n,
+                                  const buffon_density *g)
+{
+    spherical_fan f;
+    if (spherical_fan_make(&f, g->param, g->data[0], (size_t)g->param[3]) != BUFFON_OK)
+        return 1;
+    for (size_t i = 0; i < n; i++) {
+        const double along = u[i] * f.half;
+        size_t k = f.count - 1;
+        while (k > 0 && along < f.start[k])
+            k--;
+        const double v[2] = {density_open((along - f.start[k]) / f.param[k][SPHERICAL_HALF]),
+                             u[n + i]};
+        double point[3];
+        spherical_triangle_scalar(point, v, 1, f.param[k]);
+        for (size_t j = 0; j < 3; j++)
+            x[j * n + i] = point[j];
+    }
+    if (pdf)
+        density_fill(pdf, spherical_density(g), n);
+    return 0;
+}
+
+static int spherical_polygon_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
+{
+    spherical_fan f;
+    spherical_walls w;
+    if (spherical_fan_make(&f, g->param, g->data[0], (size_t)g->param[3]) != BUFFON_OK)
+        return 1;
+    spherical_fan_walls(&w, &f);
+    spherical_weigh(pdf, x, n, g, &w);
+    return 0;
+}
+
+/* The triangle of x is the last whose first side, from corner 0, x is beyond. */
+static int spherical_polygon_invert(double *u, const double *x, size_t n, const buffon_density *g)
+{
+    spherical_fan f;
+    spherical_return r[SPHERICAL_MOST - 2];
+    if (spherical_fan_make(&f, g->param, g->data[0], (size_t)g->param[3]) != BUFFON_OK)
+        return 1;
+    for (size_t k = 0; k < f.count; k++)
+        spherical_return_make(&r[k], f.param[k]);
+    for (size_t i = 0; i < n; i++) {
+        const double point[3] = {x[i], x[n + i], x[2 * n + i]};
+        const double *pole = f.param[0] + SPHERICAL_B;
+        const double d[3] = {point[0] - pole[0], point[1] - pole[1], point[2] - pole[2]};
+        double v[2];
+        size_t k = f.count - 1;
+        while (k > 0 && spherical_dot(d, r[k].on_c) < 0)
+            k--;
+        spherical_triangle_unmap(v, point, f.param[k], &r[k]);
+        u[i] = density_open((f.start[k] + v[0] * f.param[k][SPHERICAL_HALF]) / f.half);
+        u[n + i] = v[1];
+    }
+    return 0;
+}
+
+static uint64_t spherical_polygon_identity(uint64_t mix, const buffon_density *g)
+{
+    return density_mix(mix, g->data[0], 3 * (size_t)g->param[3]);
+}
+
+static const buffon_density_ops spherical_polygon_ops = {.sample = spherical_polygon_draw,
+                                                         .pdf = spherical_polygon_pdf,
+                                                         .invert = spherical_polygon_invert,
+                                                         .identity = spherical_polygon_identity,
+                                                         .name = "buffon.spherical_polygon"};
+
+/* Convex: all corners are on the inner side of all sides, those next to them strictly. */
+static int spherical_is_convex(const spherical_walls *w)
+{
+    for (size_t k = 0; k < w->count; k++)
+        for (size_t i = 2; i < w->count; i++) {
+            const double *at = w->corner[(k + i) % w->count];
+            const double d[3] = {at[0] - w->corner[k][0], at[1] - w->corner[k][1],
+                                 at[2] - w->corner[k][2]};
+            if (!(spherical_dot(d, w->normal[k]) > 0))
+                return 0;
+        }
+    return 1;
+}
+
+buffon_density buffon_spherical_polygon(const double from[3], const double *corner, size_t count)
+{
+    buffon_density g = {.uniforms = 2, .dim = 3, .ops = &spherical_polygon_ops};
+    spherical_fan f;
+    spherical_walls w;
+    if (!from || !corner)
+        g.status = BUFFON_E_NULL;
+    else if (count < 3 || count > SPHERICAL_MOST)
+        g.status = BUFFON_E_DIM;
+    else
+        g.status = spherical_fan_make(&f, from, corner, count);
+    if (g.status != BUFFON_OK)
+        return g;
+    spherical_fan_walls(&w, &f);
+    if (!spherical_is_convex(&w) || !(f.half < 1))
+        g.status = BUFFON_E_SHAPE;
+    for (size_t j = 0; j < 3; j++)
+        g.param[j] = from[j];
+    g.param[3] = (double)count;
+    g.param[SPHERICAL_HALF] = f.half;
+    g.data[0] = corner;
+    return g;
 }

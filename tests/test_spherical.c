@@ -430,6 +430,97 @@ static void test_directions(int rectangle)
     }
 }
 
+/* A regular polygon with corner 0 at an angle, in a plane that leans, seen from any point. */
+static void polygon(double *corner, size_t count, double size, double lean)
+{
+    for (size_t k = 0; k < count; k++) {
+        const double t = 6.283185307179586 * (double)k / (double)count + 0.3;
+        corner[3 * k] = size * cos(t);
+        corner[3 * k + 1] = size * sin(t);
+        corner[3 * k + 2] = lean * corner[3 * k] - 0.5 * lean * corner[3 * k + 1];
+    }
+}
+
+static void test_polygons(void)
+{
+    double corner[48], density = 0, apart = 0, back = 0, seam = 0;
+    int good = 1;
+    buffon_rng rng = buffon_rng_make(4, 76);
+    for (int k = 0; k < DRAWS / 10; k++) {
+        const size_t count = 3 + (size_t)k % 14;
+        const double from[3] = {2 * buffon_rng_next(&rng) - 1, 2 * buffon_rng_next(&rng) - 1,
+                                1 + buffon_rng_next(&rng)};
+        double u[2], v[2], x[3], y[3], pdf, again;
+        wide sum = 0, part[16];
+        polygon(corner, count, pow(10, -4 * buffon_rng_next(&rng)), 0.25);
+        const buffon_density g = buffon_spherical_polygon(from, corner, count);
+        for (size_t i = 1; i + 1 < count; i++) {
+            wide at[3], e1[3], e2[3];
+            for (size_t j = 0; j < 3; j++) {
+                at[j] = (wide)corner[j] - from[j];
+                e1[j] = (wide)corner[3 * i + j] - corner[j];
+                e2[j] = (wide)corner[3 * i + 3 + j] - corner[j];
+            }
+            part[i] = sum;
+            sum += solid_angle(at, e1, e2);
+        }
+        /* At the second triangle's end the direction is in the plane of its last side. */
+        if (count > 4) {
+            wide at[3], side[3], normal[3];
+            const double end[2] = {(double)(part[3] / sum), 0.5};
+            for (size_t j = 0; j < 3; j++) {
+                at[j] = (wide)corner[j] - from[j];
+                side[j] = (wide)corner[9 + j] - corner[j];
+            }
+            cross(normal, at, side);
+            good &= buffon_density_sample(x, NULL, end, 1, &g) == BUFFON_OK;
+            const wide far = x[0] * normal[0] + x[1] * normal[1] + x[2] * normal[2];
+            raise_to(&seam, (double)(fabsl(far) / norm(normal)));
+        }
+        grid_pair(u, &rng, k);
+        good &= buffon_density_sample(x, &pdf, u, 1, &g) == BUFFON_OK;
+        raise_to(&density, (double)fabsl(pdf - 1 / sum) / ulp(1 / sum));
+        good &= buffon_density_pdf(&again, x, 1, &g) == BUFFON_OK && again == pdf;
+        good &= buffon_density_invert(v, x, 1, &g) == BUFFON_OK;
+        good &= buffon_density_sample(y, NULL, v, 1, &g) == BUFFON_OK;
+        for (int j = 0; j < 3; j++)
+            raise_to(&back, fabs(x[j] - y[j]));
+        if (count == 3) {
+            const buffon_density same =
+                buffon_spherical_triangle(from, corner + 3, corner, corner + 6);
+            good &= buffon_density_sample(y, NULL, u, 1, &same) == BUFFON_OK;
+            for (int j = 0; j < 3; j++)
+                raise_to(&apart, fabs(x[j] - y[j]));
+        }
+        for (int j = 0; j < 3; j++)
+            x[j] = -x[j];
+        good &= buffon_density_pdf(&again, x, 1, &g) == BUFFON_OK && again == 0;
+    }
+    tap_ok(good, "polygons: the pdf at a direction is that with it, 0 behind");
+    report(apart, 1e-15, "a polygon of three corners against the triangle");
+    report(back, 1e-10, "directions led back to uniforms and to directions");
+    if (LDBL_MANT_DIG >= 64)
+        report(seam, 0x1p-49, "the end of the second triangle");
+    if (LDBL_MANT_DIG >= 64)
+        report(density, 6, "pdf of polygons, in ulp");
+    const double from[3] = {0.1, 0.2, 2};
+    polygon(corner, 8, 1, 0);
+    good = buffon_spherical_polygon(from, corner, 8).status == BUFFON_OK;
+    good &= buffon_spherical_polygon(from, corner, 2).status == BUFFON_E_DIM;
+    good &= buffon_spherical_polygon(from, corner, 17).status == BUFFON_E_DIM;
+    good &= buffon_spherical_polygon(NULL, corner, 8).status == BUFFON_E_NULL;
+    good &= buffon_spherical_polygon(from, NULL, 8).status == BUFFON_E_NULL;
+    for (size_t j = 0; j < 3; j++)
+        corner[9 + j] *= 0.3;
+    good &= buffon_spherical_polygon(from, corner, 8).status == BUFFON_E_SHAPE;
+    for (size_t j = 0; j < 3; j++)
+        corner[9 + j] = 0.5 * (corner[6 + j] + corner[12 + j]);
+    good &= buffon_spherical_polygon(corner, corner, 8).status == BUFFON_E_SHAPE;
+    corner[5] = NAN;
+    good &= buffon_spherical_polygon(from, corner, 8).status == BUFFON_E_SHAPE;
+    tap_ok(good, "polygons of too few or many corners, not convex, or seen edge on are refused");
+}
+
 /* So far off that all of it is one double or two. */
 static void test_specks(void)
 {
@@ -496,6 +587,7 @@ int main(void)
     test_rectangle_places(1, 1e6, 0.01, 2e-14);
     test_directions(0);
     test_directions(1);
+    test_polygons();
     test_specks();
     test_refused();
     return tap_done();

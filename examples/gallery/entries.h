@@ -202,6 +202,10 @@ const double qp[] = {2, 1, 0}, qr[] = {0.4, -0.8, -1.6};
 ENTRY("Spherical rectangle", "The directions in which a rectangular lamp is seen.", SPHERE,
       buffon_spherical_rectangle(eye, q, qp, qr));
 
+const double gem[] = {0, -1, 1.2, -0.9, -1, 0.6, -0.5, -1, -0.4, 0.5, -1, -0.4, 0.9, -1, 0.6};
+ENTRY("Spherical polygon", "A fan of triangles about its first corner.", SPHERE,
+      buffon_spherical_polygon(eye, gem, 5));
+
 ENTRY("Rotations", "All alike: each hair is where a turn takes the pole, and points where x went.",
       FRAMES, buffon_rotation());
 

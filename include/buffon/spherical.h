@@ -1,5 +1,5 @@
-/* Layer 2. Directions in which a triangle or a rectangle is seen from a point, uniform by solid
- * angle, and the solid angles themselves: light sources, windows, detectors.
+/* Layer 2. Directions in which a triangle, a rectangle or a convex polygon is seen from a point,
+ * uniform by solid angle, and the solid angles themselves: light sources, windows, detectors.
  *
  * Where the piece is small or far off its solid angle and the place of a point on it keep their
  * digits; a direction, whose coordinates are near 1, knows it only to 2^-50 of the distance.
@@ -109,6 +109,27 @@ BUFFON_API buffon_density buffon_spherical_rectangle(const double from[3], const
 BUFFON_API void buffon_spherical_rectangle_along(double st[2], double u1, double u2,
                                                  const double from[3], const double corner[3],
                                                  const double edge1[3], const double edge2[3]);
+
+/** The directions in which a convex polygon is seen from a point.
+ *
+ *  In:      from[3]          the observer, not in the plane of the polygon
+ *           corner[3*count]  corner k is corner[3*k] to corner[3*k + 2], in order round it;
+ *                            must outlive the density
+ *           count            3 to 16; no three corners in line
+ *  Law:     a fan of triangles about corner 0: u1 moves by solid angle round the sides that do not
+ *           meet there, from corner 1 to the last; u2 from corner 0 to the side, as in
+ *           buffon_spherical_triangle. g likewise. Corners need not lie in one plane, as long as
+ *           the polygon is convex as seen
+ *  Draws:   2
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, BUFFON_E_DIM (count), or
+ *           BUFFON_E_SHAPE: also where the polygon is not convex, or the solid angle of one of its
+ *           triangles is 0
+ *  Exact:   g within 6 ulp (tests/test_spherical.c)
+ *  Cost:    a batch starts with count - 2 triangles, half a microsecond each; points one by one
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_spherical_polygon(const double from[3], const double *corner,
+                                                   size_t count);
 
 BUFFON_END
 

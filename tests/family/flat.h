@@ -62,6 +62,10 @@ static void family_spherical(void)
     family_add("spherical rectangle, aside", buffon_spherical_rectangle(o, e2, e1, across));
     family_add("spherical rectangle, mirrored", buffon_spherical_rectangle(o, b, e1, across));
     family_add("spherical rectangle, far", buffon_spherical_rectangle(far, a, e1, across));
+    static const double pentagon[15] = {1, 0,    2,    0.3, 1,   2.25, -0.8, 0.6,
+                                        2, -0.8, -0.6, 2,   0.3, -1,   1.75};
+    family_plain("spherical polygon", buffon_spherical_polygon(above, pentagon, 5));
+    family_add("spherical polygon, a triangle", buffon_spherical_polygon(above, pentagon, 3));
     family_plain("rotation", buffon_rotation())->unseen = 1;
 }
 
