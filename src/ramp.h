@@ -20,8 +20,8 @@ static inline void ramp_place(double *s, double *c, double a, double b, double t
     *c = q / (r + root);
 }
 
-/* Which end is nearer, 0 or 1, and the way from there: s or -c. By arithmetic, as no predictor knows
- * which it will be. */
+/* Which end is nearer, 0 or 1, and the way from there: s or -c. By arithmetic, as no predictor
+ * knows which it will be. */
 static inline size_t ramp_end(double *way, double s, double c)
 {
     const size_t end = (size_t)!(s < c);

@@ -525,7 +525,7 @@ static void test_surface(void)
         good &= fabs(x[0] - y[0]) <= 0x1p-49 && fabs(x[1] - y[1]) <= 0x1p-50;
     }
     tap_ok(good, "surface: of one cell, as buffon_bilinear");
-    /* Where g is 0 on a line, at the uniforms that lead there, and past the last column with any. */
+    /* Where g is 0 on a line, at uniforms that lead there, and past the last column with any. */
     const double cross[9] = {1, 0, 1, 0, 0, 0, 1, 0, 1}, left[8] = {1, 2, 0, 0, 3, 1, 0, 0};
     const double gap[8] = {1, 0, 1, 1, 1, 0, 1, 1}, half[2] = {0.5, 0.5}, third[2] = {1 / 3.0, 0.5};
     const buffon_density c = buffon_bilinear_grid(block, sizeof block, cross, 3, 3);
