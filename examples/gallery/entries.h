@@ -100,6 +100,11 @@ ROOM(image, buffon_piecewise_grid_size(72, 72));
 ENTRY("Image", "Points fall where it is bright.", FIELD(0, 1, 0, 1),
       buffon_piecewise_grid(image, image_size, rose, 72, 72));
 
+const double nodes[] = {0, 1, 0, 0, 1, 1, 0, 3, 1, 2, 0, 1, 0, 0, 6, 1, 0, 2, 1, 0, 0, 1, 0, 3, 0};
+ROOM(nodal, buffon_bilinear_grid_size(5, 5));
+ENTRY("Surface", "Heights at the nodes of a grid, bilinear in between.", FIELD(0, 1, 0, 1),
+      buffon_bilinear_grid(nodal, nodal_size, nodes, 5, 5));
+
 static double sky[64 * 32];
 for (int i = 0; i < 64 * 32; i++) {
     const double angle = 3.14159265 * (i / 64 + 0.5) / 32, turn = 6.2831853 * (i % 64 + 0.5) / 64;
