@@ -242,12 +242,13 @@ gsl = $(eval gsl := $(shell $(PKG_CONFIG) --libs gsl 2>/dev/null))$(gsl)
 gsl_cflags = $(shell $(PKG_CONFIG) --cflags gsl)
 dsfmt = $(eval dsfmt := $(call links,dSFMT.h,-ldSFMT))$(dsfmt)
 random123 = $(eval random123 := $(call links,Random123/philox.h))$(random123)
+unuran = $(eval unuran := $(call links,unuran.h,-lunuran -lm))$(unuran)
 links = $(shell mkdir -p $(BUILD); echo 'int main(void) { return 0; }' | \
           $(CC) $(CPPFLAGS) $(LDFLAGS) -include $(1) -x c - -x none -o $(BUILD)/links $(2) \
           2>/dev/null && echo yes)
 peers = $(if $(gsl),-DBENCH_GSL $(gsl_cflags)) $(if $(dsfmt),-DBENCH_DSFMT) \
-        $(if $(random123),-DBENCH_RANDOM123)
-peer_libraries = $(gsl) $(if $(dsfmt),-ldSFMT)
+        $(if $(random123),-DBENCH_RANDOM123) $(if $(unuran),-DBENCH_UNURAN)
+peer_libraries = $(gsl) $(if $(dsfmt),-ldSFMT) $(if $(unuran),-lunuran)
 
 # Changes when a library comes or goes.
 $(BUILD)/peers: force

@@ -7,6 +7,7 @@
  *     lanes_d, lanes_u, lanes_m       doubles, words, truth values
  *     lanes_all(x), lanes_words(w)    the same in all lanes
  *     lanes_load(p, m), lanes_store(p, v, m)   m lanes of memory; lanes from m on are the last one
+ *     lanes_gather(p, k), lanes_gather_words(p, k)   p[k] of every lane
  *     lanes_bits(v), lanes_double(w)  the bits of doubles, and back
  *     lanes_uniform(w)                the uniforms of random words: see rng.h
  *     lanes_less(a, b), lanes_less_equal(a, b), lanes_equal(a, b), lanes_odd(w)
@@ -28,6 +29,8 @@
 #define lanes_words LANES(lanes_words)
 #define lanes_load LANES(lanes_load)
 #define lanes_store LANES(lanes_store)
+#define lanes_gather LANES(lanes_gather)
+#define lanes_gather_words LANES(lanes_gather_words)
 #define lanes_bits LANES(lanes_bits)
 #define lanes_double LANES(lanes_double)
 #define lanes_uniform LANES(lanes_uniform)
@@ -131,6 +134,32 @@ LANES_INLINE void lanes_store(double *p, lanes_d v, size_t m)
         for (size_t l = 0; l < m; l++)
             p[l] = part[l];
     }
+}
+
+LANES_INLINE lanes_d lanes_gather(const double *p, lanes_u k)
+{
+#if LANES_WIDTH == 8
+    return (lanes_d)_mm512_i64gather_pd((__m512i)k, p, 8);
+#elif LANES_WIDTH == 4
+    return (lanes_d)_mm256_i64gather_pd(p, (__m256i)k, 8);
+#elif LANES_WIDTH == 2
+    return (lanes_d){p[k[0]], p[k[1]]};
+#else
+    return p[k];
+#endif
+}
+
+LANES_INLINE lanes_u lanes_gather_words(const uint64_t *p, lanes_u k)
+{
+#if LANES_WIDTH == 8
+    return (lanes_u)_mm512_i64gather_epi64((__m512i)k, p, 8);
+#elif LANES_WIDTH == 4
+    return (lanes_u)_mm256_i64gather_epi64((const long long *)p, (__m256i)k, 8);
+#elif LANES_WIDTH == 2
+    return (lanes_u){p[k[0]], p[k[1]]};
+#else
+    return p[k];
+#endif
 }
 
 /* ---- choices ---- */

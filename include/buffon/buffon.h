@@ -6,7 +6,7 @@
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
  *     layer 2  inversion  exponential  normal  laws  gamma  beta  student  counts
- *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  table  alias  piecewise  bilinear  environment  inverse_table
  *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified
@@ -40,6 +40,7 @@
 #include "integrand.h"
 #include "interval.h"
 #include "inverse_cdf.h"
+#include "inverse_table.h"
 #include "inversion.h"
 #include "laws.h"
 #include "math.h"
