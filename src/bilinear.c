@@ -9,7 +9,7 @@
 #include "elementary.h"
 #include "ramp.h"
 #include "shares.h"
-#include "twofold.h"
+#include "pair_math.h"
 
 /* param: v00, v10, v01, v11, scaled by a power of two so that the largest is in [1/2, 1); then four
  * over their sum. */
@@ -139,7 +139,7 @@ typedef struct bilinear_spot {
 
 static bilinear_spot bilinear_spot_of(double x, size_t n)
 {
-    const twofold at = twofold_product(x, (double)(int64_t)n);
+    const pair at = pair_product(x, (double)(int64_t)n);
     const size_t cell = (size_t)(int64_t)at.hi;
     bilinear_spot spot = {.k = cell < n ? cell : n - 1};
     spot.k -= spot.k > 0 && (at.hi - (double)(int64_t)spot.k) + at.lo < 0;

@@ -23,7 +23,7 @@
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "twofold.h"
+#include "pair_math.h"
 
 #define NORMAL_SQRT_2PI 0x1.40d931ff62706p+1
 #define NORMAL_INV_SQRT_2PI 0x1.9884533d43651p-2
@@ -368,10 +368,10 @@ static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
     const double mu = g->param[0], sigma = g->param[1];
     buffon_math_normal_quantile(x, u, n);
     for (size_t i = 0; i < n; i++) {
-        const twofold shift = twofold_product(sigma, x[i]), sum = twofold_sum(mu, shift.hi);
-        const twofold all = twofold_sum(sum.hi, sum.lo + shift.lo);
+        const pair shift = pair_product(sigma, x[i]), sum = pair_sum(mu, shift.hi);
+        const pair all = pair_sum(sum.hi, sum.lo + shift.lo);
         const double z = x[i];
-        x[i] = twofold_exp(all, 1);
+        x[i] = pair_exp(all, 1);
         if (pdf)
             pdf[i] = buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / sigma / x[i];
     }
@@ -381,7 +381,7 @@ static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
 /* z of x, and log x. */
 static double lognormal_place(double *log_x, double x, const buffon_density *g)
 {
-    const twofold only = {x, 0}, log_of = twofold_log(only);
+    const pair only = {x, 0}, log_of = pair_log(only);
     *log_x = log_of.hi;
     return ((log_of.hi - g->param[0]) + log_of.lo) / g->param[1];
 }
