@@ -434,14 +434,14 @@ static int build_centre(build_walk *w, build_place from, build_place to)
 
 /* ---- the table ---- */
 
-/* Four bins to a cell: few have more than one split. */
+/* Eight bins to a cell: few have more than one split. */
 static int build_guide(build_walk *w)
 {
     buffon_inverse_table *table = w->table;
     const inverse_row *cells = inverse_cells(table);
     uint64_t *guide = inverse_guide(table);
     table->bins = 16;
-    while (table->bins < 4 * table->cells)
+    while (table->bins < 8 * table->cells)
         table->bins *= 2;
     double *split = (double *)(void *)(guide + table->bins);
     if ((const char *)(split + table->bins) > (const char *)w->last)

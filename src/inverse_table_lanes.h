@@ -1,5 +1,16 @@
 /* Private. The kernel of inverse_table.c: included by levels.h. */
 
+#if LANES_WIDTH == 2
+
+/* Two lanes that are loaded one by one gain nothing. */
+static void LANES(inverse_map_points)(double *x, double *pdf, const double *u, size_t n,
+                                      const buffon_inverse_table *table, unsigned bits)
+{
+    inverse_map_points_scalar(x, pdf, u, n, table, bits);
+}
+
+#else
+
 /* The cells of p in the centre, as places of their rows of 8 numbers. A bin names the cell of its
  * lower end and where that ends. Most have one such split at most; where more are, the cells are
  * walked over. */
@@ -52,3 +63,5 @@ static void LANES(inverse_map_points)(double *x, double *pdf, const double *u, s
                                       n - i < LANES_WIDTH ? n - i : LANES_WIDTH, table);
     }
 }
+
+#endif
