@@ -10,8 +10,8 @@
 #include "elementary.h"
 #include "frame.h"
 
-/* `param`: the shift; |det A| as m 2^e with m in [1/2, 1). Up to dim = 3 the matrix follows, else it
- * is data[1]. data[0] is the density of y. */
+/* `param`: the shift; |det A| as m 2^e with m in [1/2, 1). Up to dim = 3 the matrix follows the
+ * shift, else it is data[1]. data[0] is the density of y. */
 enum { AFFINE_MOST = 12, AFFINE_COPIED = 3, AFFINE_TILE = 512 };
 enum { AFFINE_SHIFT = 0, AFFINE_M = 12, AFFINE_E = 13, AFFINE_MATRIX = 3 };
 
@@ -20,9 +20,9 @@ static const double *affine_matrix(const buffon_density *g)
     return g->data[1] ? (const double *)g->data[1] : g->param + AFFINE_MATRIX;
 }
 
-/* A as L U by elimination with row pivots: in place, row[k] the row that is k-th. A row is chosen by
- * its number against the largest of the row. Where the numbers differ by more than 2^120, units are
- * changed first by exact powers of two: a_ij = 2^(up_i + across_j) of what is kept. */
+/* A as L U by elimination with row pivots: in place, row[k] the row that is k-th. A row is chosen
+ * by its number against the largest of the row. Where the numbers differ by more than 2^120, units
+ * are changed first by exact powers of two: a_ij = 2^(up_i + across_j) of what is kept. */
 typedef struct affine_lu {
     double a[AFFINE_MOST * AFFINE_MOST];
     size_t row[AFFINE_MOST];

@@ -14,19 +14,16 @@
 static void bell_shape(double *f, double c, double v, int terms)
 {
     double w[BELL_TERMS + 2] = {0, 1}, h[BELL_TERMS + 3] = {0, 0, 0.5};
+    f[0] = 1;
     for (int k = 2; k <= terms + 1; k++) {
-        double sum = k % 2 ? 0.5 * w[(k + 1) / 2] * w[(k + 1) / 2] : 0;
+        double sum = k % 2 ? 0.5 * w[(k + 1) / 2] * w[(k + 1) / 2] : 0, next = 0;
         h[k + 1] = (c * w[k - 1] - 2 * v * h[k - 1]) * (1.0 / (k + 1));
         for (int j = 2; 2 * j < k + 1; j++)
             sum += w[j] * w[k + 1 - j];
         w[k] = h[k + 1] - sum;
-    }
-    f[0] = 1;
-    for (int k = 1; k <= terms; k++) {
-        double sum = 0;
-        for (int j = 1; j <= k; j++)
-            sum += w[j + 1] * f[k - j];
-        f[k] = -sum;
+        for (int j = k; j >= 2; j--)
+            next += w[j] * f[k - j];
+        f[k - 1] = -next;
     }
 }
 

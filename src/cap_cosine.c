@@ -17,24 +17,23 @@
  * half angle. It touches the unit circle, the horizon, in two points where the cap crosses it, at
  * y = +-s sin H, cos H = c |sin B| / (s cos B). Between these lies the crescent: outside the
  * ellipse, inside the circle. It is all there is of a cap with B <= 0; with B > 0 the ellipse is
- * added to it. (The sum of both is Snyder's formula.)
+ * added to it, and the areas are the irradiance.
  *
  * With y = s sin p the chord of the crescent at p is from the ellipse's x = c cos B + |sin B| s cos
- * p to the circle's r = sqrt(1 - y^2). */
+ * p to the circle's r = sqrt(1 - y^2).
+ *
+ * The frame kept is the cap's, in which small caps keep their digits about a coordinate axis; but
+ * where the normal is a coordinate axis it is the surface's, in which small cosines keep theirs. A
+ * REACH below 0 says so. */
 enum {
     CAP_COSINE_SINE = FRAME_SIZE, /* s */
     CAP_COSINE_COSINE,            /* c */
     CAP_COSINE_UP,                /* sin B */
     CAP_COSINE_ACROSS,            /* cos B */
-    CAP_COSINE_LOWEST,            /* above the horizon: the sine of the rim's least height */
-    CAP_COSINE_TOTAL,             /* the irradiance */
-    CAP_COSINE_REACH              /* the largest chord that counts as inside */
+    CAP_COSINE_LOWEST, /* the sine of the rim's least height; where that is below 0: -H */
+    CAP_COSINE_TOTAL,  /* the irradiance */
+    CAP_COSINE_REACH   /* the largest chord that counts as inside */
 };
-/* The frame kept is the cap's, in which small caps keep their digits about a coordinate axis. Where
- * the normal is a coordinate axis it is the surface's, in which small cosines keep theirs; a REACH
- * below 0 says so. */
-/* Where the horizon cuts the cap, in place of LOWEST: -H. */
-#define CAP_COSINE_CUT CAP_COSINE_LOWEST
 
 #define CAP_COSINE_PI 0x1.921fb54442d18p+1
 
@@ -46,15 +45,13 @@ enum {
 /* x - sin x for 0 <= x <= 1.2, by its series. */
 static double cap_cosine_arc(double x)
 {
-    const double z = x * x;
-    const double even = 0x1.5555555555555p-3 +
-                        z * z *
-                            (0x1.a01a01a01a01ap-13 +
-                             z * z * (0x1.ae64567f544e4p-26 + z * z * 0x1.ae7f3e733b81fp-41));
-    const double odd = 0x1.1111111111111p-7 +
-                       z * z *
-                           (0x1.71de3a556c734p-19 +
-                            z * z * (0x1.6124613a86d09p-33 + z * z * 0x1.952c77030ad4ap-49));
+    const double z = x * x, w = z * z;
+    const double even =
+        0x1.5555555555555p-3 +
+        w * (0x1.a01a01a01a01ap-13 + w * (0x1.ae64567f544e4p-26 + w * 0x1.ae7f3e733b81fp-41));
+    const double odd =
+        0x1.1111111111111p-7 +
+        w * (0x1.71de3a556c734p-19 + w * (0x1.6124613a86d09p-33 + w * 0x1.952c77030ad4ap-49));
     return x * z * (even - z * odd);
 }
 
@@ -142,35 +139,32 @@ static double cap_cosine_closed(const cap_cosine_cut *k, const cap_cosine_place 
     return at->y * k->middle + cap_cosine_between(k, at) - unlike * ellipse;
 }
 
-/* The same from p to q by Gauss and Legendre's rule of 12 nodes. */
-static double cap_cosine_rule(const cap_cosine_cut *k, double p, double q)
+/* The same from p to H by Gauss and Legendre's rule of 8 nodes. */
+static double cap_cosine_rule(const cap_cosine_cut *k, double p)
 {
-    static const double place[6] = {0x1.007a5f8f630e4p-4, 0x1.78a8d20a8b19dp-3,
-                                    0x1.2cb4f05c077f9p-2, 0x1.8a30aeed88f36p-2,
-                                    0x1.cee874ffb88b4p-2, 0x1.f68f1d8e42e81p-2};
-    static const double weight[6] = {0x1.fe40ce6d4f025p-4, 0x1.de3155c256ab5p-4,
-                                     0x1.a0163e6b1ab72p-4, 0x1.47d7258f22d8fp-4,
-                                     0x1.b60602bce6181p-5, 0x1.8275d9dea6d8fp-6};
+    static const double place[4] = {0x1.77ac94f3c7345p-4, 0x1.0d129583284b4p-2,
+                                    0x1.97e4ab249f41ep-2, 0x1.ebab1cb0acc67p-2};
+    static const double weight[4] = {0x1.736360b199343p-3, 0x1.413c50a255615p-3,
+                                     0x1.c76fb531d2b96p-4, 0x1.9ea1d04ca0374p-5};
+    const double width = k->touch - p;
     double sum = 0;
-    for (int i = 0; i < 12; i++) {
-        const double off = i < 6 ? 0.5 - place[i] : 0.5 + place[i - 6];
-        const cap_cosine_place at = cap_cosine_at(k, p + off * (q - p));
-        sum += weight[i % 6] * at.crescent * at.cosine;
+    for (int i = 0; i < 8; i++) {
+        const double off = i < 4 ? 0.5 - place[i] : 0.5 + place[i - 4];
+        const cap_cosine_place at = cap_cosine_at(k, p + off * width);
+        sum += weight[i % 4] * at.crescent * at.cosine;
     }
-    return k->s * (q - p) * sum;
+    return k->s * width * sum;
 }
 
 /* The share of the area beyond p. The closed form loses the digits of a thin crescent and of what
- * is left near its ends, where the rule has them all: it converges by 4 and more for each node. */
+ * is left near its end, where the rule has them all: the circles of large caps, which turn sharply
+ * at pi/2, are left out, and the nearest singularity is some 5 half widths from its middle. */
 static double cap_cosine_left(const cap_cosine_cut *k, const cap_cosine_place *at, double p)
 {
-    const double across = 0.5 * CAP_COSINE_PI - p, middle = 0.5 * k->touch;
+    const double across = 0.5 * CAP_COSINE_PI - p;
     double left = 0;
-    if (p < k->touch && k->touch < 1)
-        left = p < middle ? cap_cosine_rule(k, p, middle) + cap_cosine_rule(k, middle, k->touch)
-                          : cap_cosine_rule(k, p, k->touch);
-    else if (p < k->touch && k->c > 0.5 && p > 0.65 * k->touch)
-        left = cap_cosine_rule(k, p, k->touch);
+    if (p < k->touch && (k->touch < 0.5 || (k->c > 0.5 && p > 0.85 * k->touch)))
+        left = cap_cosine_rule(k, p);
     else if (p < k->touch)
         left = k->crescent - cap_cosine_closed(k, at, p);
     if (k->sb > 0)
@@ -187,15 +181,14 @@ static cap_cosine_cut cap_cosine_cut_of(const double *param)
     cap_cosine_cut k = {.s = s, .c = param[CAP_COSINE_COSINE], .sb = sb, .half = 1};
     k.cb = param[CAP_COSINE_ACROSS];
     k.low = buffon_priv_abs(sb);
-    k.touch = -param[CAP_COSINE_CUT];
+    k.touch = -param[CAP_COSINE_LOWEST];
     buffon_priv_sincospi(&k.sin_touch, &k.cos_touch, k.touch / CAP_COSINE_PI);
     const double half = buffon_priv_sinpi(0.5 * k.touch / CAP_COSINE_PI);
     const double sine = 2 * s * k.cb * half * half;
     k.middle = sine * sine / (1 + k.c * k.cb + s * k.low);
     k.end = sb > 0 ? 0.5 * CAP_COSINE_PI : k.touch;
-    if (k.touch < 1) {
-        k.crescent =
-            cap_cosine_rule(&k, 0, 0.5 * k.touch) + cap_cosine_rule(&k, 0.5 * k.touch, k.touch);
+    if (k.touch < 0.5) {
+        k.crescent = cap_cosine_rule(&k, 0);
     } else {
         const cap_cosine_place last = cap_cosine_at(&k, k.touch);
         k.crescent = cap_cosine_closed(&k, &last, k.touch);
@@ -219,7 +212,7 @@ static double cap_cosine_solve(const cap_cosine_cut *k, double rest)
         const double next = p + (root - wanted) / slope;
         *(root > wanted ? &lo : &hi) = p;
         if (buffon_priv_abs(next - p) <= 0x1p-28 * k->end)
-            return next < k->end ? next : k->end;
+            return next < 0 ? 0 : next < k->end ? next : k->end;
         p = next;
         if (hi - lo <= 0x1p-52 * k->end)
             break;
@@ -266,7 +259,8 @@ static void cap_cosine_measure(double *param, double half_angle)
         param[CAP_COSINE_TOTAL] = CAP_COSINE_PI * s * s * sb;
     } else if (height > -half_angle) {
         const double both = sqrt(differ * cap_cosine_sine(half_angle + size));
-        param[CAP_COSINE_CUT] = -CAP_COSINE_PI * buffon_priv_atan2pi(both, c * buffon_priv_abs(sb));
+        param[CAP_COSINE_LOWEST] =
+            -CAP_COSINE_PI * buffon_priv_atan2pi(both, c * buffon_priv_abs(sb));
         param[CAP_COSINE_TOTAL] = 2 * cap_cosine_cut_of(param).half;
     }
 }
@@ -303,6 +297,35 @@ double buffon_cap_irradiance(double half_angle, const double axis[3], const doub
     return param[CAP_COSINE_TOTAL];
 }
 
+/* The half angle at which a sphere is seen, and the axis; NaN where it is not. The sine is radius
+ * over distance, and the cosine the root of a product in which only distance - radius cancels. */
+static double cap_cosine_seen(double axis[3], const double from[3], const double centre[3],
+                              double radius)
+{
+    const double most = 0x1p1000;
+    int valid = radius > 0 && radius <= most;
+    double unit[3];
+    for (size_t j = 0; j < 3; j++) {
+        valid &= buffon_priv_abs(from[j]) <= most && buffon_priv_abs(centre[j]) <= most;
+        axis[j] = centre[j] - from[j];
+    }
+    const double d = frame_unit(unit, axis);
+    if (!(valid && d > radius))
+        return (double)NAN;
+    const double cosine = sqrt((d - radius) / d * ((d + radius) / d));
+    return CAP_COSINE_PI * buffon_priv_atan2pi(radius / d, cosine);
+}
+
+double buffon_cap_irradiance_of_sphere(const double from[3], const double centre[3], double radius,
+                                       const double normal[3])
+{
+    double axis[3];
+    if (!from || !centre)
+        return (double)NAN;
+    const double half_angle = cap_cosine_seen(axis, from, centre, radius);
+    return buffon_cap_irradiance(half_angle, axis, normal);
+}
+
 /* ---- the density -------------------------------------------------------------------------- */
 
 /* u1 is the place across, both sides of y = 0 alike; u2 goes along the chord, from the horizon. The
@@ -335,7 +358,7 @@ static int cap_cosine_draw(double *x, double *pdf, const double *u, size_t n,
                            const buffon_density *g)
 {
     double *const row[4] = {x, x + n, x + 2 * n, pdf};
-    if (g->param[CAP_COSINE_CUT] < 0)
+    if (g->param[CAP_COSINE_LOWEST] < 0)
         cap_cosine_draw_cut(x, pdf, u, n, g);
     else
         LEVELS_RUN(cap_cosine_map, (row, u, u + n, n, g->param));
@@ -409,8 +432,8 @@ static void cap_cosine_unmap_cut(double u[2], const cap_cosine_view *v, const ca
 static int cap_cosine_invert(double *u, const double *x, size_t n, const buffon_density *g)
 {
     const double *f = g->param;
-    const int cut = f[CAP_COSINE_CUT] < 0;
-    const cap_cosine_cut k = cap_cosine_cut_of(f);
+    const int cut = f[CAP_COSINE_LOWEST] < 0;
+    const cap_cosine_cut k = cut ? cap_cosine_cut_of(f) : (cap_cosine_cut){0};
     for (size_t i = 0; i < n; i++) {
         const cap_cosine_view v = cap_cosine_see(f, x[i], x[n + i], x[2 * n + i]);
         double place[2];
@@ -438,4 +461,14 @@ buffon_density buffon_cap_cosine(double half_angle, const double axis[3], const 
     g = (buffon_density){.uniforms = 2, .dim = 3, .ops = &cap_cosine_ops};
     g.status = status == BUFFON_OK ? BUFFON_E_SHAPE : status;
     return g;
+}
+
+buffon_density buffon_cap_cosine_of_sphere(const double from[3], const double centre[3],
+                                           double radius, const double normal[3])
+{
+    double axis[3];
+    if (!from || !centre)
+        return buffon_cap_cosine(1, NULL, normal);
+    const double half_angle = cap_cosine_seen(axis, from, centre, radius);
+    return buffon_cap_cosine(half_angle, axis, normal);
 }

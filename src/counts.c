@@ -223,13 +223,16 @@ static double counts_tail(const counts_law *law, double k, int upper)
     return buffon_priv_beta_tail(&beta, law->p, !upper);
 }
 
-/* Near where k ought to be, for a normal z: E. Cornish, R. Fisher (1938). */
+/* Near where k ought to be, for a normal z: E. Cornish, R. Fisher (1938). In far tails of small
+ * means the series wanders off; it is kept on its side of the mean. */
 static double counts_guess(const counts_law *law, double z)
 {
-    const double zz = z * z, s = law->skew;
-    const double x = law->mean + law->sd * (z + s * (zz - 1) / 6 + law->excess * z * (zz - 3) / 24 -
-                                            s * s * z * (2 * zz - 5) / 36);
+    const double zz = z * z, s = law->skew, m = law->mean;
     const double most = law->tries < 0x1p52 ? law->tries : 0x1p52;
+    double x = m + law->sd * (z + s * (zz - 1) / 6 + law->excess * z * (zz - 3) / 24 -
+                              s * s * z * (2 * zz - 5) / 36);
+    if (z < 0 ? !(x <= m) : !(x >= m))
+        x = m;
     return x > 0 ? x < most ? (double)(int64_t)(x + 0.5) : most : 0;
 }
 

@@ -7,7 +7,7 @@
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "twofold.h"
+#include "pair_math.h"
 
 #define KERNELS "exponential_lanes.h"
 #include "levels.h"
@@ -234,7 +234,7 @@ buffon_density buffon_exponential_truncated(double rate, double lo, double hi)
     g.param[TRUNCATED_C] = c;
     g.param[TRUNCATED_LENGTH] = length;
     /* The rounding of c counts in exp(c): it is made good where c and its parts are finite. */
-    const double low = c < 700 && c > TRUNCATED_EVEN ? twofold_product(r, length).lo : 0;
+    const double low = c < 700 && c > TRUNCATED_EVEN ? pair_product(r, length).lo : 0;
     const double fall = buffon_priv_exp(-c), gain = c < 700 ? buffon_priv_expm1(c) : 0;
     g.param[TRUNCATED_FALL] = fall - fall * low;
     g.param[TRUNCATED_LOSS] = buffon_priv_expm1(-c) - fall * low;

@@ -12,8 +12,9 @@
 #include "special.h"
 
 #define GAMMA_LOG_2PI 0x1.d67f1c864beb5p+0
-#define GAMMA_BELL 10 /* shapes from which the law is nearly normal */
-#define GAMMA_NEAR 1.5
+#define GAMMA_BELL 10       /* shapes from which the law is nearly normal */
+#define GAMMA_NEAR 1.5      /* y up to which the alternating series cancels little */
+#define GAMMA_NOWHERE -2000 /* a log y whose y is 0 at any scale: P(Y <= y) is y^a */
 enum { GAMMA_TERMS = 90, GAMMA_ALTERNATING = 26, GAMMA_STEPS = 1000 };
 
 /* The variable is t = log(y / unit), unit = max(a, 1), in which the density is
@@ -27,7 +28,6 @@ typedef struct gamma_law {
     double size;        /* min(a, 1), which is kept out of log D */
     double peak;        /* as above */
     double log_gamma1p; /* log Gamma(1 + a), of a < 1 */
-    double series[GAMMA_TERMS];
     double alternating[GAMMA_ALTERNATING];
     buffon_priv_bell bell;
 } gamma_law;
@@ -51,16 +51,12 @@ static void gamma_law_at(gamma_law *law, const buffon_density *g)
     law->log_unit = law->a < 1 ? 0 : g->param[5];
 }
 
-/* And the series: P(Y <= y) / D = (1 + y / (a + 1) + y^2 / ((a + 1) (a + 2)) + ...) / a, and for
- * small a the sum of (-y)^k / (k! (a + k)). */
+/* And what points need: the nearly normal law, or for small a the series with terms
+ * (-y)^k / (k! (a + k)). */
 static void gamma_law_make(gamma_law *law, const buffon_density *g)
 {
-    double c = 1, factorial = 1;
+    double factorial = 1;
     gamma_law_at(law, g);
-    for (int k = 0; k < GAMMA_TERMS; k++) {
-        law->series[k] = c;
-        c *= law->unit / (law->a + (k + 1));
-    }
     for (int k = 1; k <= GAMMA_ALTERNATING && law->a < 1; k++) {
         factorial *= -k;
         law->alternating[k - 1] = 1 / (factorial * (law->a + k));
@@ -76,19 +72,17 @@ static double gamma_log_density(const gamma_law *law, double t, double y)
     return a < 1 ? law->peak + (a * t - y) : law->peak - a * (buffon_priv_expm1(t) - t);
 }
 
-/* P(Y <= y) size / D for y at most a little above a. */
+/* P(Y <= y) size / D for y at most a little above a: 1 / a times
+ * 1 + y / (a + 1) + y^2 / ((a + 1) (a + 2)) + ... */
 static double gamma_lower(const gamma_law *law, double y)
 {
-    const double z = y / law->unit;
-    double power = 1, sum = 0;
-    for (int k = 0; k < GAMMA_TERMS; k++) {
-        const double term = law->series[k] * power;
+    const double a = law->a;
+    double term = 1, sum = 1;
+    for (int k = 1; k < GAMMA_TERMS && term > 0x1p-56 * sum; k++) {
+        term *= y / (a + k);
         sum += term;
-        power *= z;
-        if (term < 0x1p-56 * sum)
-            break;
     }
-    return sum * (law->size / law->a);
+    return sum * (law->size / a);
 }
 
 /* P(Y > y) / D for y above a: Legendre's continued fraction, its convergents by Steed's method. */
@@ -184,7 +178,8 @@ static double gamma_quantile(const gamma_law *law, double u, double *log_y)
     log_p = upper ? buffon_priv_log1p(-(1 - u)) : buffon_priv_log(u);
     log_q = upper ? buffon_priv_log(1 - u) : buffon_priv_log1p(-u);
     t = gamma_guess(law, log_p, log_q, z);
-    t = buffon_priv_solve(t, upper ? log_q : log_p, upper, gamma_place, law);
+    if (t > GAMMA_NOWHERE)
+        t = buffon_priv_solve(t, upper ? log_q : log_p, upper, gamma_place, law);
     *log_y = t + law->log_unit;
     return law->unit * buffon_priv_exp(t);
 }

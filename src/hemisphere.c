@@ -9,9 +9,9 @@
 #include "density_priv.h"
 #include "frame.h"
 
-/* The numbers of a power of the cosine in `param`: the frame, the exponent, 1 / (n + 1) in two
- * parts, (n + 1) / (2 pi). */
-enum { POWER_EXPONENT = FRAME_SIZE, POWER_SHARE, POWER_SHARE_LOW, POWER_SCALE };
+/* The numbers of a power of the cosine in `param`: the frame, the exponent, 1 / (n + 1) as a double
+ * and as the sum of its first 26 bits and a double, (n + 1) / (2 pi). */
+enum { LOBE_EXPONENT = FRAME_SIZE, LOBE_SHARE, LOBE_SHARE_TOP, LOBE_SHARE_LOW, LOBE_SCALE };
 
 #define KERNELS "hemisphere_lanes.h"
 #include "levels.h"
@@ -135,7 +135,7 @@ static int hemisphere_pdf_power(double *pdf, const double *x, size_t n, const bu
     for (size_t i = 0; i < n; i++) {
         const double log_cosine = hemisphere_log_cosine(p, x[i], x[n + i], x[2 * n + i]);
         const int in = log_cosine > -(double)INFINITY;
-        pdf[i] = in ? p[POWER_SCALE] * buffon_priv_exp(p[POWER_EXPONENT] * log_cosine) : 0;
+        pdf[i] = in ? p[LOBE_SCALE] * buffon_priv_exp(p[LOBE_EXPONENT] * log_cosine) : 0;
     }
     return 0;
 }
@@ -143,11 +143,11 @@ static int hemisphere_pdf_power(double *pdf, const double *x, size_t n, const bu
 static int hemisphere_log_pdf_power(double *log_pdf, const double *x, size_t n,
                                     const buffon_density *g)
 {
-    const double *p = g->param, log_scale = buffon_priv_log(p[POWER_SCALE]);
+    const double *p = g->param, log_scale = buffon_priv_log(p[LOBE_SCALE]);
     for (size_t i = 0; i < n; i++) {
         const double log_cosine = hemisphere_log_cosine(p, x[i], x[n + i], x[2 * n + i]);
         const int in = log_cosine > -(double)INFINITY;
-        log_pdf[i] = in ? log_scale + p[POWER_EXPONENT] * log_cosine : -(double)INFINITY;
+        log_pdf[i] = in ? log_scale + p[LOBE_EXPONENT] * log_cosine : -(double)INFINITY;
     }
     return 0;
 }
@@ -157,7 +157,7 @@ static int hemisphere_unmap_power(double *u, const double *x, size_t n, const bu
     const double *p = g->param;
     for (size_t i = 0; i < n; i++) {
         const double a = x[i], b = x[n + i], c = x[2 * n + i];
-        const double log_rest = hemisphere_log_cosine(p, a, b, c) / p[POWER_SHARE];
+        const double log_rest = hemisphere_log_cosine(p, a, b, c) / p[LOBE_SHARE];
         double across[2];
         frame_across(across, p, a, b, c);
         u[i] = density_open(-buffon_priv_expm1(log_rest));
@@ -172,17 +172,18 @@ static const buffon_density_ops hemisphere_power_ops = {.sample = hemisphere_dra
                                                         .invert = hemisphere_unmap_power,
                                                         .name = "buffon.hemisphere_power"};
 
-/* 1 / (n + 1) in two parts: what n + 1 and the quotient lose is known exactly, the product of the
- * halves of both factors being exact. */
-static void hemisphere_share(double share[2], double exponent)
+/* 1 / (n + 1) and its parts: what n + 1 and the quotient lose is known, products of halves of their
+ * digits being exact. */
+static void hemisphere_share(double share[3], double exponent)
 {
     const double sum = exponent + 1, added = sum - exponent;
     const double lost = (exponent - (sum - added)) + (1 - added), q = 1 / sum;
-    const double split = 0x1p27 + 1, qs = split * q, ss = split * sum;
-    const double q1 = qs - (qs - q), q2 = q - q1, s1 = ss - (ss - sum), s2 = sum - s1;
-    const double rest = ((1 - q1 * s1) - q1 * s2 - q2 * s1) - q2 * s2;
+    const double split = 0x1p27 + 1, ss = split * sum, s1 = ss - (ss - sum), s2 = sum - s1;
+    const double q1 = buffon_priv_from_bits(buffon_priv_bits(q) & ~UINT64_C(0x7ffffff));
+    const double rest = (1 - q1 * s1) - q1 * s2;
     share[0] = q;
-    share[1] = (rest - q * lost) / sum;
+    share[1] = q1;
+    share[2] = (rest - q * lost) / sum;
 }
 
 buffon_density buffon_hemisphere_power_about(double exponent, const double axis[3])
@@ -196,9 +197,9 @@ buffon_density buffon_hemisphere_power_about(double exponent, const double axis[
     if (g.status != BUFFON_OK)
         return g;
     frame_make(g.param, n);
-    g.param[POWER_EXPONENT] = exponent;
-    hemisphere_share(g.param + POWER_SHARE, exponent);
-    g.param[POWER_SCALE] = 0.5 * DENSITY_INV_PI * (exponent + 1);
+    g.param[LOBE_EXPONENT] = exponent;
+    hemisphere_share(g.param + LOBE_SHARE, exponent);
+    g.param[LOBE_SCALE] = 0.5 * DENSITY_INV_PI * (exponent + 1);
     return g;
 }
 

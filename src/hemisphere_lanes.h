@@ -29,17 +29,11 @@ static void LANES(hemisphere_map)(double *const row[4], const double *u1, const 
         LANES(hemisphere_points)(row, u1, u2, n, param);
 }
 
-/* The first 26 bits of x: a product of two such parts is exact. */
-LANES_INLINE lanes_d LANES(hemisphere_top)(lanes_d x)
-{
-    return lanes_double(lanes_bits(x) & ~UINT64_C(0x7ffffff));
-}
-
 /* c = (1 - u)^share, 1 - c with its own digits, share = 1 / (n + 1) in two parts. Near the horizon
- * the power would multiply the rounding of a logarithm by its size, 37, so logarithm and product
- * are carried in two parts, as sums a + low. */
-LANES_INLINE lanes_d LANES(hemisphere_root)(lanes_d *less, lanes_d u, double share,
-                                            double share_low)
+ * the power would multiply the rounding of a logarithm by its size, 37. So the logarithm a is cut
+ * in two, of which the first has 26 bits, like the first part of share: their product is exact, and
+ * the exponential takes the rest by itself. */
+LANES_INLINE lanes_d LANES(hemisphere_root)(lanes_d *less, lanes_d u, const double *param)
 {
     lanes_d m, r;
     lanes_u e;
@@ -47,12 +41,11 @@ LANES_INLINE lanes_d LANES(hemisphere_root)(lanes_d *less, lanes_d u, double sha
     const lanes_d f = lanes_pick(lanes_equal(k, lanes_all(0)), -u, m - 1.0);
     const lanes_d half = 0.5 * f * f, s = f / (2.0 + f);
     const lanes_d y = (half - (s * (half + LANES(log_rest)(s)) + k * LANES_LN2_LO)) - f;
-    const lanes_d big = k * LANES_LN2_HI, a = big - y, low = (big - a) - y;
-    const lanes_d top = LANES(hemisphere_top)(a), tail = a - top, power = a * share;
-    const double first = buffon_priv_from_bits(buffon_priv_bits(share) & ~UINT64_C(0x7ffffff));
-    const double second = share - first;
-    const lanes_d lost = ((top * first - power) + top * second + tail * first) + tail * second;
-    const lanes_d rest = LANES(exp_core)(&r, &e, power, lost + (a * share_low + low * share));
+    const lanes_d big = k * LANES_LN2_HI;
+    const lanes_d top = lanes_double(lanes_bits(big - y) & ~UINT64_C(0x7ffffff));
+    const lanes_d tail = (big - top) - y;
+    const lanes_d low = top * param[LOBE_SHARE_LOW] + tail * param[LOBE_SHARE];
+    const lanes_d rest = LANES(exp_core)(&r, &e, top * param[LOBE_SHARE_TOP], low);
     const lanes_d scale = LANES(power2)(e), begin = 1.0 - LANES(power2)(0 - e);
     const lanes_d sum = begin + r;
     *less = -(sum + ((r - (sum - begin)) + rest)) * scale;
@@ -64,13 +57,12 @@ LANES_INLINE lanes_d LANES(hemisphere_root)(lanes_d *less, lanes_d u, double sha
 LANES_INLINE void LANES(hemisphere_powers)(double *const row[4], const double *u1, const double *u2,
                                            size_t n, const double *param, int turned)
 {
-    const double share = param[POWER_SHARE], share_low = param[POWER_SHARE_LOW];
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
         const lanes_d u = lanes_load(u1 + i, n - i);
-        lanes_d less, a, b, c = LANES(hemisphere_root)(&less, u, share, share_low);
+        lanes_d less, a, b, c = LANES(hemisphere_root)(&less, u, param);
         const lanes_d s = lanes_sqrt(less * (1.0 + c));
         if (row[3] != NULL)
-            lanes_store(row[3] + i, param[POWER_SCALE] * ((1.0 - u) / c), n - i);
+            lanes_store(row[3] + i, param[LOBE_SCALE] * ((1.0 - u) / c), n - i);
         LANES(circle)(&a, &b, lanes_load(u2 + i, n - i));
         a *= s;
         b *= s;

@@ -23,7 +23,7 @@
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "twofold.h"
+#include "pair_math.h"
 
 #define NORMAL_SQRT_2PI 0x1.40d931ff62706p+1
 #define NORMAL_INV_SQRT_2PI 0x1.9884533d43651p-2
@@ -351,6 +351,8 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
         near.m * NORMAL_INV_SQRT_2PI * buffon_priv_exp(near.s - 0.5 * alpha * alpha);
     g.param[NORMAL_CENTRAL] = buffon_priv_copysign(
         normal_middle_mass(buffon_priv_abs(alpha)) * NORMAL_INV_SQRT_2PI, alpha);
+    if (!(normal_whole(g.param) >= 0x1p-1000)) /* its greatest density is not a double */
+        g.status = BUFFON_E_DOMAIN;
     g.param[NORMAL_BELOW] = buffon_priv_normal_cdf(alpha);
     g.param[NORMAL_ABOVE] = buffon_priv_normal_cdf(-beta);
     return g;
@@ -366,10 +368,10 @@ static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
     const double mu = g->param[0], sigma = g->param[1];
     buffon_math_normal_quantile(x, u, n);
     for (size_t i = 0; i < n; i++) {
-        const twofold shift = twofold_product(sigma, x[i]), sum = twofold_sum(mu, shift.hi);
-        const twofold all = twofold_sum(sum.hi, sum.lo + shift.lo);
+        const pair shift = pair_product(sigma, x[i]), sum = pair_sum(mu, shift.hi);
+        const pair all = pair_sum(sum.hi, sum.lo + shift.lo);
         const double z = x[i];
-        x[i] = twofold_exp(all, 1);
+        x[i] = pair_exp(all, 1);
         if (pdf)
             pdf[i] = buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / sigma / x[i];
     }
@@ -379,7 +381,7 @@ static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
 /* z of x, and log x. */
 static double lognormal_place(double *log_x, double x, const buffon_density *g)
 {
-    const twofold only = {x, 0}, log_of = twofold_log(only);
+    const pair only = {x, 0}, log_of = pair_log(only);
     *log_x = log_of.hi;
     return ((log_of.hi - g->param[0]) + log_of.lo) / g->param[1];
 }
@@ -436,7 +438,7 @@ static const buffon_density_ops lognormal_ops = {.sample = lognormal_sample,
 buffon_density buffon_lognormal(double mu, double sigma)
 {
     buffon_density g = {.uniforms = 1, .dim = 1, .ops = &lognormal_ops};
-    if (sigma >= 0x1p-500 && buffon_priv_abs(mu) + 9 * sigma <= 700) {
+    if (sigma >= 0x1p-60 && buffon_priv_abs(mu) + 9 * sigma <= 650) {
         g.param[0] = mu;
         g.param[1] = sigma;
     } else {

@@ -1,5 +1,5 @@
-/* Private. Numbers of twice the digits, as unevaluated sums hi + lo of two doubles, for what a
- * constructor computes once and must not lose to cancellation: areas, volumes, solid angles.
+/* Private. Numbers of twice the digits, as unevaluated sums hi + lo of two doubles, for what
+ * must not be lost to cancellation: areas, volumes, solid angles, exponents of powers.
  *
  * Errors are a few 2^-105 of the operands, as long as no product of low parts underflows: callers
  * bring their numbers near 1 by an exact power of two. T. Dekker (1971), A floating-point technique
@@ -67,6 +67,20 @@ static inline pair pair_multiply(pair a, pair b)
 {
     const pair p = pair_product(a.hi, b.hi);
     return pair_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
+/* a b, a / b, to some 2^-100. */
+static inline pair pair_times(pair a, double b)
+{
+    const pair p = pair_product(a.hi, b);
+    return pair_sum(p.hi, p.lo + a.lo * b);
+}
+
+static inline pair pair_over(pair a, pair b)
+{
+    const double q = a.hi / b.hi;
+    const pair p = pair_product(q, b.hi);
+    return pair_sum(q, (((a.hi - p.hi) - p.lo) + (a.lo - q * b.lo)) / b.hi);
 }
 
 static inline pair pair_scale(pair a, double power_of_two)

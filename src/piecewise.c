@@ -154,15 +154,15 @@ static int piecewise_draw_lines(double *x, double *pdf, const double *u, size_t 
 {
     const piecewise_line line = piecewise_of(g->data[0]);
     for (size_t i = 0; i < n; i++) {
-        double rest, left, s, c;
+        double rest, left, s, c, way;
         const uint64_t unit = shares_unit(&rest, u[i]);
         const size_t k = shares_find(line.bound, line.first, line.bits, unit);
         const double lo = line.edge[k], hi = line.edge[k + 1], width = hi - lo;
         const double into = shares_into(&left, line.bound, k, unit, rest);
         ramp_place(&s, &c, line.g[k], line.g[k + 1], into, left);
-        const double middle = lo + 0.5 * width, down = hi - c * width;
-        const double v = s < c ? lo + s * width : down > middle ? down : middle;
-        x[i] = piecewise_inside(&line, k, v);
+        const size_t end = ramp_end(&way, s, c);
+        const double least[2] = {lo, lo + 0.5 * width}, v = line.edge[k + end] + way * width;
+        x[i] = piecewise_inside(&line, k, v > least[end] ? v : least[end]);
         if (pdf)
             pdf[i] = piecewise_height(&line, k, x[i]);
     }

@@ -8,7 +8,7 @@
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "twofold.h"
+#include "pair_math.h"
 
 #define POWER_LEAST 0x1p-1074
 #define POWER_SMALL 0x1p-60 /* of a log(hi / lo), below which the law is x = lo (hi / lo)^u */
@@ -26,9 +26,9 @@ static buffon_status power_check(buffon_density *g)
 }
 
 /* 1 - u to all its digits. */
-static twofold power_rest(double u)
+static pair power_rest(double u)
 {
-    return twofold_sum(1, -u);
+    return pair_sum(1, -u);
 }
 
 /* n w / x, where a small w must not lose digits in n w. */
@@ -62,27 +62,27 @@ enum {
  * than 1 / |a|, the logarithm log(x / lo) is found as a fraction of log(hi / lo). */
 static double power_place(double *w, double u, const double *p)
 {
-    const twofold a = {p[POWER_A], p[POWER_A_LO]};
-    const twofold length = {p[POWER_LENGTH], p[POWER_LENGTH_LO]}, rest = power_rest(u);
+    const pair a = {p[POWER_A], p[POWER_A_LO]};
+    const pair length = {p[POWER_LENGTH], p[POWER_LENGTH_LO]}, rest = power_rest(u);
     const double c = p[POWER_C], near = a.hi > 0 ? rest.hi : u, far = a.hi > 0 ? u : rest.hi;
     *w = far + near * p[POWER_R];
     if (c < POWER_SMALL)
-        return twofold_exp(twofold_times(length, u), p[POWER_LO]);
+        return pair_exp(pair_times(length, u), p[POWER_LO]);
     if (c < 1) {
         const double signed_c = a.hi > 0 ? c : -c;
         const double share = buffon_priv_log1p(u * buffon_priv_expm1(signed_c)) / signed_c;
-        return twofold_exp(twofold_times(length, share), p[POWER_LO]);
+        return pair_exp(pair_times(length, share), p[POWER_LO]);
     }
     if (p[POWER_R] == 0) {
-        const twofold all = {u, 0};
-        return twofold_exp(twofold_over(twofold_log(a.hi > 0 ? all : rest), a), p[POWER_REF]);
+        const pair all = {u, 0};
+        return pair_exp(pair_over(pair_log(a.hi > 0 ? all : rest), a), p[POWER_REF]);
     }
     if (*w > 0.5) {
-        const twofold log_w = {buffon_priv_log1p(near * buffon_priv_expm1(-c)), 0};
-        return twofold_exp(twofold_over(log_w, a), p[POWER_REF]);
+        const pair log_w = {buffon_priv_log1p(near * buffon_priv_expm1(-c)), 0};
+        return pair_exp(pair_over(log_w, a), p[POWER_REF]);
     }
-    const twofold only = {*w, 0};
-    return twofold_exp(twofold_over(twofold_log(only), a), p[POWER_REF]);
+    const pair only = {*w, 0};
+    return pair_exp(pair_over(pair_log(only), a), p[POWER_REF]);
 }
 
 static int power_sample(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
@@ -101,11 +101,11 @@ static int power_sample(double *x, double *pdf, const double *u, size_t n, const
 }
 
 /* log(x / ref) a, where x is in the support. */
-static twofold power_exponent(double x, const double *p)
+static pair power_exponent(double x, const double *p)
 {
-    const twofold a = {p[POWER_A], p[POWER_A_LO]};
-    const twofold y = twofold_log_ratio(x, p[POWER_REF]), product = twofold_times(y, a.hi);
-    return twofold_sum(product.hi, product.lo + y.hi * a.lo);
+    const pair a = {p[POWER_A], p[POWER_A_LO]};
+    const pair y = pair_log_ratio(x, p[POWER_REF]), product = pair_times(y, a.hi);
+    return pair_sum(product.hi, product.lo + y.hi * a.lo);
 }
 
 static int power_holds(double x, const double *p)
@@ -117,7 +117,7 @@ static int power_pdf(double *pdf, const double *x, size_t n, const buffon_densit
 {
     const double *p = g->param;
     for (size_t i = 0; i < n; i++)
-        pdf[i] = power_holds(x[i], p) ? twofold_exp(power_exponent(x[i], p), p[POWER_N] / x[i]) : 0;
+        pdf[i] = power_holds(x[i], p) ? pair_exp(power_exponent(x[i], p), p[POWER_N] / x[i]) : 0;
     return 0;
 }
 
@@ -137,15 +137,15 @@ static double power_level(double x, const double *p)
 {
     const double a = p[POWER_A], c = p[POWER_C], r = p[POWER_R], lo = p[POWER_LO];
     if (lo == 0)
-        return twofold_exp(power_exponent(x, p), 1);
-    const twofold y = twofold_log_ratio(x, lo);
+        return pair_exp(power_exponent(x, p), 1);
+    const pair y = pair_log_ratio(x, lo);
     if (c < POWER_SMALL)
         return y.hi / p[POWER_LENGTH];
     if (a < 0)
         return buffon_priv_expm1(a * y.hi) / buffon_priv_expm1(-c);
     if (a * y.hi < 1)
         return buffon_priv_expm1(a * y.hi) * r / -buffon_priv_expm1(-c);
-    return (twofold_exp(power_exponent(x, p), 1) - r) / (1 - r);
+    return (pair_exp(power_exponent(x, p), 1) - r) / (1 - r);
 }
 
 static int power_invert(double *u, const double *x, size_t n, const buffon_density *g)
@@ -163,7 +163,7 @@ static const buffon_density_ops power_ops = {.sample = power_sample,
                                              .invert = power_invert,
                                              .name = "buffon.power"};
 
-static buffon_density power_make(twofold a, double lo, double hi)
+static buffon_density power_make(pair a, double lo, double hi)
 {
     buffon_density g = {.uniforms = 1, .dim = 1, .ops = &power_ops};
     const int bounded = lo > 0 && hi <= DBL_MAX;
@@ -177,8 +177,8 @@ static buffon_density power_make(twofold a, double lo, double hi)
         return g;
     }
     const double size = buffon_priv_abs(a.hi), infinite = (double)INFINITY;
-    const twofold none = {infinite, 0}, length = bounded ? twofold_log_ratio(hi, lo) : none;
-    const twofold signed_c = bounded ? twofold_times(length, -size) : none;
+    const pair none = {infinite, 0}, length = bounded ? pair_log_ratio(hi, lo) : none;
+    const pair signed_c = bounded ? pair_times(length, -size) : none;
     const double c = bounded ? -signed_c.hi : infinite;
     g.param[POWER_A] = a.hi;
     g.param[POWER_A_LO] = a.lo;
@@ -188,7 +188,7 @@ static buffon_density power_make(twofold a, double lo, double hi)
     g.param[POWER_LENGTH] = length.hi;
     g.param[POWER_LENGTH_LO] = length.lo;
     g.param[POWER_C] = c;
-    g.param[POWER_R] = bounded ? twofold_exp(signed_c, 1) : 0;
+    g.param[POWER_R] = bounded ? pair_exp(signed_c, 1) : 0;
     g.param[POWER_N] = c < POWER_SMALL ? 1 / length.hi
                        : bounded       ? size / -buffon_priv_expm1(-c)
                                        : size;
@@ -198,12 +198,12 @@ static buffon_density power_make(twofold a, double lo, double hi)
 
 buffon_density buffon_power(double exponent, double lo, double hi)
 {
-    return power_make(twofold_sum(exponent, 1), lo, hi);
+    return power_make(pair_sum(exponent, 1), lo, hi);
 }
 
 buffon_density buffon_pareto(double alpha, double scale)
 {
-    const twofold a = {-alpha, 0};
+    const pair a = {-alpha, 0};
     buffon_density g = power_make(a, scale, (double)INFINITY);
     if (!(alpha >= 0x1p-20 && alpha <= 0x1p20) || !(scale > 0 && scale <= DBL_MAX))
         g.status = BUFFON_E_SHAPE;
@@ -214,10 +214,10 @@ buffon_density buffon_pareto(double alpha, double scale)
 
 /* `param`: shape, scale. E = (x / scale)^shape = -log(1 - u). */
 
-static twofold weibull_energy(double u)
+static pair weibull_energy(double u)
 {
-    const twofold log_rest = twofold_log(power_rest(u));
-    const twofold energy = {-log_rest.hi, -log_rest.lo}, small = {u, 0.5 * u * u};
+    const pair log_rest = pair_log(power_rest(u));
+    const pair energy = {-log_rest.hi, -log_rest.lo}, small = {u, 0.5 * u * u};
     return u < 0x1p-60 ? small : energy;
 }
 
@@ -225,10 +225,10 @@ static int weibull_sample(double *x, double *pdf, const double *u, size_t n,
                           const buffon_density *g)
 {
     const double shape = g->param[0], scale = g->param[1];
-    const twofold k = {shape, 0};
+    const pair k = {shape, 0};
     for (size_t i = 0; i < n; i++) {
-        const twofold e = weibull_energy(u[i]);
-        const double y = twofold_exp(twofold_over(twofold_log(e), k), scale);
+        const pair e = weibull_energy(u[i]);
+        const double y = pair_exp(pair_over(pair_log(e), k), scale);
         x[i] = y < POWER_LEAST ? POWER_LEAST : y > DBL_MAX ? DBL_MAX : y;
         if (pdf)
             pdf[i] = power_slope(shape * (1 - u[i]), e.hi, x[i]);
@@ -236,9 +236,9 @@ static int weibull_sample(double *x, double *pdf, const double *u, size_t n,
     return 0;
 }
 
-static twofold weibull_log_energy(double x, const buffon_density *g)
+static pair weibull_log_energy(double x, const buffon_density *g)
 {
-    return twofold_times(twofold_log_ratio(x, g->param[1]), g->param[0]);
+    return pair_times(pair_log_ratio(x, g->param[1]), g->param[0]);
 }
 
 /* slope exp(-e), in two steps so that the exponential does not leave the doubles before g does. */
@@ -254,8 +254,8 @@ static int weibull_pdf(double *pdf, const double *x, size_t n, const buffon_dens
     for (size_t i = 0; i < n; i++) {
         pdf[i] = 0;
         if (x[i] > 0 && x[i] <= DBL_MAX) {
-            const twofold log_e = weibull_log_energy(x[i], g);
-            const double e = twofold_exp(log_e, 1), slope = twofold_exp(log_e, g->param[0] / x[i]);
+            const pair log_e = weibull_log_energy(x[i], g);
+            const double e = pair_exp(log_e, 1), slope = pair_exp(log_e, g->param[0] / x[i]);
             pdf[i] = e < 1500 ? weibull_fall(slope, e) : 0;
         }
     }
@@ -268,8 +268,8 @@ static int weibull_log_pdf(double *log_pdf, const double *x, size_t n, const buf
     for (size_t i = 0; i < n; i++) {
         log_pdf[i] = -(double)INFINITY;
         if (x[i] > 0 && x[i] <= DBL_MAX) {
-            const twofold log_e = weibull_log_energy(x[i], g);
-            log_pdf[i] = log_shape + (log_e.hi - buffon_priv_log(x[i])) - twofold_exp(log_e, 1);
+            const pair log_e = weibull_log_energy(x[i], g);
+            log_pdf[i] = log_shape + (log_e.hi - buffon_priv_log(x[i])) - pair_exp(log_e, 1);
         }
     }
     return 0;
@@ -279,7 +279,7 @@ static int weibull_invert(double *u, const double *x, size_t n, const buffon_den
 {
     for (size_t i = 0; i < n; i++) {
         const int inside = x[i] > 0 && x[i] <= DBL_MAX;
-        const double e = inside ? twofold_exp(weibull_log_energy(x[i], g), 1) : 0;
+        const double e = inside ? pair_exp(weibull_log_energy(x[i], g), 1) : 0;
         u[i] = density_inside(x[i] > DBL_MAX ? 1 : -buffon_priv_expm1(-e));
     }
     return 0;

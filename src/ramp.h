@@ -3,6 +3,10 @@
 #define BUFFON_SRC_RAMP_H
 
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "elementary.h"
 
 /* The point s with the mass t below it and q = 1 - t above it, and its distance c = 1 - s from 1,
  * both with all their digits. The mass below s is s (2 a + (b - a) s) / (a + b) = t. Its root is
@@ -14,6 +18,16 @@ static inline void ramp_place(double *s, double *c, double a, double b, double t
     const double root = sqrt(q * (p * p) + t * (r * r));
     *s = t / (p + root);
     *c = q / (r + root);
+}
+
+/* Which end is nearer, 0 or 1, and the way from there: s or -c. By arithmetic, as no predictor
+ * knows which it will be. */
+static inline size_t ramp_end(double *way, double s, double c)
+{
+    const size_t end = (size_t)!(s < c);
+    const uint64_t upper = 0 - (uint64_t)end;
+    *way = buffon_priv_from_bits((buffon_priv_bits(-c) & upper) | (buffon_priv_bits(s) & ~upper));
+    return end;
 }
 
 /* The mass below s = 1 - c. */

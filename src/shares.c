@@ -3,7 +3,7 @@
 #include "shares.h"
 
 #include "elementary.h"
-#include "twofold.h"
+#include "pair_math.h"
 
 int buffon_priv_shares_scale(buffon_priv_shares *sum, double most)
 {
@@ -58,20 +58,20 @@ static double shares_largest(const uint64_t *bits, size_t count)
 buffon_status buffon_priv_shares_make(uint64_t *bound, size_t count, buffon_priv_shares *sum)
 {
     uint64_t total[2] = {UINT64_C(1) << 63, 0}; /* half a unit: cutting the sum rounds it */
-    twofold all = {0, 0}, whole = {0x1p62, 0};
+    pair all = {0, 0}, whole = {0x1p62, 0};
     if (buffon_priv_shares_scale(sum, shares_largest(bound + 1, count)))
         return BUFFON_E_SHAPE;
     for (size_t k = 1; k <= count; k++) {
         const double mass = shares_scaled(sum, buffon_priv_from_bits(bound[k]));
-        const twofold s = twofold_sum(all.hi, mass);
-        all = twofold_sum(s.hi, s.lo + all.lo);
+        const pair s = pair_sum(all.hi, mass);
+        all = pair_sum(s.hi, s.lo + all.lo);
     }
-    const twofold per = twofold_over(whole, all);
+    const pair per = pair_over(whole, all);
     sum->all = all.hi;
     bound[0] = 0;
     for (size_t k = 1; k <= count; k++) {
         const double mass = shares_scaled(sum, buffon_priv_from_bits(bound[k]));
-        const twofold units = twofold_product(mass, per.hi);
+        const pair units = pair_product(mass, per.hi);
         const double rest = units.lo + mass * per.lo;
         shares_add(total, units.hi, 0);
         shares_add(total, buffon_priv_abs(rest), rest < 0);

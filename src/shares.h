@@ -149,7 +149,8 @@ typedef enum table_kind {
     TABLE_CONSTANT = 3,
     TABLE_LINEAR = 4,
     TABLE_GRID = 5,
-    TABLE_ENVIRONMENT = 6
+    TABLE_ENVIRONMENT = 6,
+    TABLE_BILINEAR = 7
 } table_kind;
 
 /* What a block begins with. Behind it are arrays whose places follow from it, so that the block may
@@ -181,6 +182,7 @@ uint64_t buffon_priv_table_identity(uint64_t mix, const buffon_density *g);
 /* The density of a block of the kind. */
 buffon_density buffon_priv_alias_view(const buffon_priv_table *table);
 buffon_density buffon_priv_piecewise_view(const buffon_priv_table *table);
+buffon_density buffon_priv_bilinear_view(const buffon_priv_table *table);
 buffon_density buffon_priv_environment_view(const buffon_priv_table *table);
 
 /* `head` bytes and a sheet behind them: the size of all, and where the sheet is. */

@@ -30,15 +30,25 @@ double buffon_priv_lgamma1p(double a)
     return a <= 0.5 ? special_lgamma2p(a) - buffon_priv_log1p(a) : special_lgamma2p(a - 1);
 }
 
+/* 1 / 3 + w / 5 + w^2 / 7 + ..., which is (atanh(r) - r) / r^3 for w = r^2: `terms` leave
+ * w^terms / 30. */
+static double special_atanh(double w, int terms)
+{
+    static const double c[] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11,
+                               1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21,
+                               1.0 / 23, 1.0 / 25, 1.0 / 27, 1.0 / 29};
+    double sum = 0;
+    for (int k = terms - 1; k >= 0; k--)
+        sum = c[k] + w * sum;
+    return sum;
+}
+
 /* d(z) - d(z + 1) = (z + 1/2) log(1 + 1/z) - 1 = r^2 / 3 + r^4 / 5 + ..., r = 1 / (2 z + 1), for
  * z >= 1.5. */
 static double special_stirling_step(double z)
 {
     const double r = 1 / (2 * z + 1), w = r * r;
-    double sum = 0;
-    for (int k = 27; k >= 3; k -= 2)
-        sum = 1.0 / k + w * sum;
-    return w * sum;
+    return w * special_atanh(w, z < 3 ? 13 : 10);
 }
 
 /* Stirling's series from 12 up, where six terms leave 1e-16; below by steps, or from
@@ -60,15 +70,12 @@ double buffon_priv_stirling(double z)
                                      w * (0x1.b951e2b18ff23p-11 + w * -0x1.f6ab0d9993c7dp-10)))));
 }
 
-/* With r = d / (2 + d), log(1 + d) = 2 (r + r^3 / 3 + ...) and d - 2 r = r d. Sixteen terms for
- * r^2 <= 1/16; elsewhere at most four bits cancel. */
+/* With r = d / (2 + d), log(1 + d) = 2 (r + r^3 / 3 + ...) and d - 2 r = r d, for r^2 <= 1/16;
+ * elsewhere at most four bits cancel. */
 double buffon_priv_deviance(double d)
 {
     const double r = d / (2 + d), w = r * r;
-    double sum = 0;
     if (!(d >= -0.4 && d <= 0.6))
         return d - buffon_priv_log1p(d);
-    for (int k = 29; k >= 3; k -= 2)
-        sum = 1.0 / k + w * sum;
-    return r * (d - 2 * w * sum);
+    return r * (d - 2 * w * special_atanh(w, w < 0x1p-10 ? 5 : 14));
 }

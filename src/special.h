@@ -5,7 +5,7 @@
 #define BUFFON_SRC_SPECIAL_H
 
 /* The error of Stirling's formula, log Gamma(z) - ((z - 1/2) log z - z + log(2 pi) / 2), for z > 0:
- * within 2e-17 from 3/2 up, 2e-16 (1 - log z) below. */
+ * within 1e-16 from 3/2 up, 2e-16 (1 - log z) below. */
 double buffon_priv_stirling(double z);
 
 /* log Gamma(1 + a) for 0 <= a <= 3/2, within 1e-15 of itself near its zeros 0 and 1 too. */

@@ -91,7 +91,7 @@ static buffon_status block_check(const buffon_priv_table *table, size_t size)
         return BUFFON_E_NULL;
     if (size < sizeof *table || !block_is_aligned(table))
         return BUFFON_E_SIZE;
-    if (table->magic <= TABLE_MAGIC || table->magic > TABLE_MAGIC + TABLE_ENVIRONMENT ||
+    if (table->magic <= TABLE_MAGIC || table->magic > TABLE_MAGIC + TABLE_BILINEAR ||
         table->bytes < sizeof *table)
         return BUFFON_E_CORRUPT;
     if (table->bytes > size)
@@ -112,6 +112,8 @@ buffon_density buffon_table_open(const void *table, size_t size)
     case TABLE_LINEAR:
     case TABLE_GRID:
         return buffon_priv_piecewise_view(table);
+    case TABLE_BILINEAR:
+        return buffon_priv_bilinear_view(table);
     case TABLE_ENVIRONMENT:
         break;
     }

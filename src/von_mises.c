@@ -52,31 +52,26 @@ static const double mises_rough_weight[MISES_ROUGH] = {
     0x1.32138c878efe5p-4, 0x1.1115f8b62dc1fp-5,
 };
 
-typedef struct mises_rule {
-    const double *node, *weight;
-    size_t count;
-} mises_rule;
-
-static const mises_rule mises_fine = {mises_fine_node, mises_fine_weight, MISES_FINE};
-static const mises_rule mises_rough = {mises_rough_node, mises_rough_weight, MISES_ROUGH};
-
 /* The integrals of f(t) / f(h) over `length` from `from`, where `square` is sin^2(pi h). */
 static void mises_integrate(double *mass, const double *from, const double *length,
-                            const double *square, size_t n, double kappa, const mises_rule *rule)
+                            const double *square, size_t n, double kappa, int fine)
 {
+    const double *node = fine ? mises_fine_node : mises_rough_node;
+    const double *weight = fine ? mises_fine_weight : mises_rough_weight;
+    const size_t nodes = fine ? MISES_FINE : MISES_ROUGH;
     double t[MISES_FINE * MISES_TILE];
-    for (size_t k = 0; k < rule->count; k++)
+    for (size_t k = 0; k < nodes; k++)
         for (size_t i = 0; i < n; i++)
-            t[k * n + i] = from[i] + length[i] * rule->node[k];
-    buffon_math_sinpi(t, t, rule->count * n);
-    for (size_t k = 0; k < rule->count; k++)
+            t[k * n + i] = from[i] + length[i] * node[k];
+    buffon_math_sinpi(t, t, nodes * n);
+    for (size_t k = 0; k < nodes; k++)
         for (size_t i = 0; i < n; i++)
             t[k * n + i] = -2 * kappa * (t[k * n + i] * t[k * n + i] - square[i]);
-    buffon_math_exp(t, t, rule->count * n);
+    buffon_math_exp(t, t, nodes * n);
     for (size_t i = 0; i < n; i++) {
         double sum = 0;
-        for (size_t k = 0; k < rule->count; k++)
-            sum += rule->weight[k] * t[k * n + i];
+        for (size_t k = 0; k < nodes; k++)
+            sum += weight[k] * t[k * n + i];
         mass[i] = sum * length[i];
     }
 }
@@ -90,7 +85,7 @@ static void mises_mass(double *mass, const double *h, const double *square, int 
     double length[MISES_TILE], s[MISES_TILE], c[MISES_TILE];
     if (inner) {
         density_fill(s, 0, n);
-        mises_integrate(mass, s, h, square, n, kappa, &mises_rough);
+        mises_integrate(mass, s, h, square, n, kappa, 0);
         return;
     }
     for (size_t i = 0; i < n; i++) {
@@ -101,7 +96,7 @@ static void mises_mass(double *mass, const double *h, const double *square, int 
     buffon_math_atan2pi(length, s, c, n);
     for (size_t i = 0; i < n; i++)
         length[i] -= h[i];
-    mises_integrate(mass, h, length, square, n, kappa, fine ? &mises_fine : &mises_rough);
+    mises_integrate(mass, h, length, square, n, kappa, fine);
 }
 
 /* About the h beyond which lies the share p < 1/2 of one side. The normal law with the density's

@@ -18,6 +18,8 @@ page=$build/examples.run/gallery.html
 "$build/examples/gallery" "$page" > "$build/examples.run/gallery.out" 2>&1
 test "$(grep -c '^ENTRY(' examples/gallery/entries.h)" = "$(grep -c '</svg>$' "$page")"
 tap_ok $? "the gallery draws every entry"
+tap_empty "$(sed -n 's/^ENTRY(\("[^"]*"\).*/\1/p' examples/gallery/entries.h | sort | uniq -d)" \
+    "and each once"
 tap_empty "$(grep -niE '[^a-z](nan|inf)[^a-z]' "$page" | cut -c 1-90)" "and all of each"
 test "$(wc -c < "$page")" -lt 2000000
 tap_ok $? "in less than 2 MB"

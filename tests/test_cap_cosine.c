@@ -166,7 +166,7 @@ static void test_irradiance(void)
             see_error(&turned, fabsl(again / other - 1) * 0x1p52L / (1 + 1 / (b + e.angle)));
     }
     report(&above, 8, "irradiance of a cap above the horizon, in 2^-52 of itself");
-    report(&cut, 6, "irradiance of a cap across the horizon, in 2^-52 (1 + t / (b + t))");
+    report(&cut, 8, "irradiance of a cap across the horizon, in 2^-52 (1 + t / (b + t))");
     report(&turned, 16, "irradiance about any axis, in 2^-52 (1 + 1 / (b + t))");
 }
 
@@ -216,7 +216,7 @@ static void see_cut(worst *w, worst *tail, worst *along, const example *e, const
     const wide share = fminl(u[0], 1 - (wide)u[0]), known = 1 + e->angle / (b + e->angle);
     wide first, last;
     see_error(w, fabsl(0.5L * beyond / total - share) * 0x1p52L / known);
-    if (touch < 1 && b < 0)
+    if (touch < 0.5L && b < 0)
         see_error(tail,
                   fabsl(0.5L * beyond / total - share) / powl(share, 2.0L / 3) * 0x1p52L / known);
     if (share < 1e-3L)
@@ -276,10 +276,38 @@ static void test_points(void)
     tap_ok(there, "points lie on their caps and above the horizon");
     report(&length, 1, "|x|^2 within 2^-48 of 1, in that");
     report(&whole, 16, "points of a cap above the horizon, in 2^-52 of its size");
-    report(&across, 2, "points across the horizon: share of u1, in 2^-52 (1 + t / (b + t))");
+    report(&across, 4, "points across the horizon: share of u1, in 2^-52 (1 + t / (b + t))");
     report(&tail, 4, "thin crescents: share q of the smaller side, in 2^-52 q^(2/3) (1 + ...)");
     report(&along, 16, "points across the horizon: share of u2, in 2^-52 (1 + t / (b + t))");
     report(&drawn, 16, "cosine at the point, in 2^-52 of the highest");
+}
+
+/* About a surface that looks up the cosine is z, to the last digits however low. */
+static void test_level(void)
+{
+    worst cosine = {0}, given = {0}, back = {0};
+    buffon_rng rng = buffon_rng_make(4, 41);
+    for (int k = 0; k < 3000; k++) {
+        const example e = any_example(&rng, k);
+        const buffon_density g = buffon_cap_cosine(e.angle, e.normal, e.axis);
+        const double total = buffon_cap_irradiance(e.angle, e.normal, e.axis);
+        double u[2], x[3] = {0}, pdf = NAN, again = NAN, v[2] = {0};
+        grid_pair(u, &rng, k);
+        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK ||
+            buffon_density_pdf(&again, x, 1, &g) != BUFFON_OK ||
+            buffon_density_invert(v, x, 1, &g) != BUFFON_OK)
+            cosine.most = INFINITY;
+        see_error(&cosine, fabsl((wide)pdf * total / x[2] - 1) * 0x1p52L);
+        if (e.angle < 1e-3)
+            continue; /* the doubles near the axis are 2^-53 apart, and so are their uniforms */
+        see_error(&given, fabs(again / pdf - 1) * 0x1p52);
+        if (e.height > -0.9 * e.angle && fmin(u[0], 1 - u[0]) > 1e-3 && fmin(u[1], 1 - u[1]) > 1e-3)
+            see_error(&back,
+                      fmax(fabs(v[0] - u[0]), fabs(v[1] - u[1])) * e.angle * e.angle * 0x1p52);
+    }
+    report(&cosine, 4, "about a surface that looks up: g along with the point is z, in 2^-52");
+    report(&given, 4, "and so is g at the point");
+    report(&back, 128, "u of the point, in 2^-52 over the square of the angle");
 }
 
 /* ---- known values ------------------------------------------------------------------------- */
@@ -309,6 +337,55 @@ static void test_known(void)
            "g above the horizon and on the cap only");
 }
 
+/* A sphere of sine s = radius / distance above the horizon: pi s^2 sin b. */
+static void test_spheres(void)
+{
+    const double here[3] = {1, 2, 3}, up[3] = {0, 0, 1}, far[3] = {0, INFINITY, 0};
+    worst whole = {0}, set = {0};
+    buffon_rng rng = buffon_rng_make(3, 41);
+    for (int k = 0; k < 2000; k++) {
+        double from[3], centre[3];
+        wide square = 0;
+        for (int j = 0; j < 3; j++) {
+            from[j] = k % 2 ? 0 : buffon_rng_next(&rng);
+            centre[j] = from[j] + (j < 2 ? 2 * buffon_rng_next(&rng) - 1 : 1);
+            square += ((wide)centre[j] - from[j]) * ((wide)centre[j] - from[j]);
+        }
+        const wide d = sqrtl(square), sine = ((wide)centre[2] - from[2]) / d;
+        const double radius =
+            (double)d * sinh(1) * 0.77 * ldexp(buffon_rng_next(&rng), k % 3 ? 0 : -(k % 100));
+        const double got = buffon_cap_irradiance_of_sphere(from, centre, radius, up);
+        const wide angle = asinl(radius / d), b = asinl(sine);
+        if (angle <= b)
+            see_error(&whole,
+                      fabsl(got / (WIDE_PI * radius * radius / square * sine) - 1) * 0x1p52L);
+        else
+            see_error(&set, fabsl(got / irradiance(angle, b) - 1) * 0x1p52L);
+    }
+    report(&whole, 16, "irradiance of a sphere above the horizon, in 2^-52 of itself");
+    report(&set, 16, "irradiance of a sphere across the horizon, in 2^-52 of itself");
+    const double centre[3] = {1, 2, 5};
+    const buffon_density g = buffon_cap_cosine_of_sphere(here, centre, 1, up);
+    double x[3] = {0, 0, 1}, pdf = 0;
+    tap_ok(buffon_density_pdf(&pdf, x, 1, &g) == BUFFON_OK &&
+               fabs(pdf * 0.7853981633974483 - 1) < 1e-15,
+           "a sphere of half the distance in the zenith: g = 4 / pi there");
+    refused_by_value(buffon_cap_cosine_of_sphere(NULL, here, 1, up), BUFFON_E_NULL, "from nowhere");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, NULL, 1, up), BUFFON_E_NULL, "no centre");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, 1, NULL), BUFFON_E_NULL,
+                     "no normal");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, 2, up), BUFFON_E_SHAPE,
+                     "from on it");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, 0, up), BUFFON_E_SHAPE, "radius 0");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, centre, NAN, up), BUFFON_E_SHAPE, "NaN");
+    refused_by_value(buffon_cap_cosine_of_sphere(here, far, 1, up), BUFFON_E_SHAPE, "far off");
+    refused_by_value(buffon_cap_cosine_of_sphere(centre, here, 1, up), BUFFON_E_SHAPE, "below");
+    tap_ok(buffon_cap_irradiance_of_sphere(centre, here, 1, up) == 0 &&
+               isnan(buffon_cap_irradiance_of_sphere(here, here, 1, up)) &&
+               isnan(buffon_cap_irradiance_of_sphere(NULL, here, 1, up)),
+           "the irradiance of a sphere below is 0, of one around NaN");
+}
+
 static void test_refusals(void)
 {
     const double up[3] = {0, 0, 1}, zero[3] = {0}, inf[3] = {1, INFINITY, 0}, down[3] = {0, 0, -1};
@@ -335,6 +412,8 @@ int main(void)
     if (have_wide()) {
         test_irradiance();
         test_points();
+        test_spheres();
+        test_level();
     }
     test_known();
     test_refusals();

@@ -339,6 +339,29 @@ static void test_mises(void)
     tap_ok(mirrored, "von Mises: points of u and 1 - u are mirrors");
 }
 
+/* With kappa = 1: E[cos] = I1(1) / I0(1), and g = exp(1) / (2 pi I0(1)) at the mean. */
+static void test_mises_known(void)
+{
+    enum { POINTS = 4096 };
+    static double u[POINTS], x[POINTS];
+    const buffon_density g = buffon_von_mises(1, 0), even = buffon_von_mises(0, 5);
+    const double mean[2] = {0, 5};
+    double sum = 0, pdf[2] = {0};
+    for (int i = 0; i < POINTS; i++)
+        u[i] = (i + 0.5) / POINTS;
+    int good = buffon_density_sample(x, NULL, u, POINTS, &g) == BUFFON_OK &&
+               buffon_density_pdf(pdf, mean, 1, &g) == BUFFON_OK &&
+               buffon_density_pdf(pdf + 1, mean + 1, 1, &even) == BUFFON_OK;
+    for (int i = 0; i < POINTS; i++)
+        sum += cos(x[i]);
+    good &= fabs(sum / POINTS - 0.44638996589653450) < 1e-6;
+    good &= fabs(pdf[0] / 0.34171048862346311 - 1) < 1e-14;
+    good &= fabs(pdf[1] * 6.2831853071795865 - 1) < 1e-14;
+    tap_ok(good, "von Mises: values that are known");
+    tap_note("E[cos] off by %.3g, g by %.3g", sum / POINTS - 0.44638996589653450,
+             pdf[0] / 0.34171048862346311 - 1);
+}
+
 /* Points keep their order, whatever their neighbours, and stay on the circle. */
 static void test_mises_order(void)
 {
@@ -492,6 +515,7 @@ int main(void)
     } else {
         tap_ok(1, "formulas # SKIP long double is no wider than double");
     }
+    test_mises_known();
     test_mises_order();
     test_turned();
     test_means();

@@ -112,6 +112,20 @@ static void test_ranks(void)
         "5 replicates: the error from the widest interval there is");
 }
 
+/* After a tolerance the interval is for all looks together. */
+static void test_looks(void)
+{
+    double numbers[15];
+    const buffon_points points = known_points(numbers, 15);
+    const buffon_run run = {.samples = 100000, .points = &points, .abs_tol = 0.1};
+    buffon_estimate e;
+    shuffled(numbers, 15);
+    const buffon_status status = buffon_uniform(&e, &first_f, lo, hi, &run);
+    tap_ok(status == BUFFON_OK && e.looks == 5 && e.samples < 100000 &&
+               fabs(e.lo - 0.003) < 1e-12 && fabs(e.hi - 0.013) < 1e-12,
+           "five looks: the interval of 99 %%");
+}
+
 /* Where the middle agrees to the last bit, the interval reaches farther out. */
 static void test_ties(void)
 {
@@ -362,6 +376,7 @@ static void test_smooth(void)
 int main(void)
 {
     test_ranks();
+    test_looks();
     test_ties();
     test_ratio();
     test_refused();

@@ -272,6 +272,19 @@ static void test_agrees(const problem *p)
     tap_ok(worst < 4, "%s: agrees with replicates (%.2f sigma)", p->name, worst);
 }
 
+/* Is a partial sound enough to be saved and loaded? */
+static int travels(const buffon_partial *partial)
+{
+    buffon_partial loaded = {{0}, NULL};
+    const size_t size = buffon_partial_size(partial);
+    unsigned char *bytes = malloc(size);
+    const int good = bytes != NULL && buffon_partial_save(bytes, size, partial) == BUFFON_OK &&
+                     buffon_partial_load(&loaded, bytes, size) == BUFFON_OK;
+    buffon_partial_free(&loaded);
+    free(bytes);
+    return good;
+}
+
 static void solve_part(buffon_partial *all, const problem *p, buffon_run run, uint32_t part)
 {
     buffon_estimate e[PROBLEMS_COMPONENTS];
@@ -306,7 +319,7 @@ static void test_doubling(const problem *p)
     sizes[1] = buffon_partial_size(&all);
     run.samples = 1 << 8;
     must_run(p->solve(e, run), p->name);
-    wrong += !same_estimates(once, e, p->components);
+    wrong += !same_estimates(once, e, p->components) || !travels(&all);
     run.samples = 1 << 9; /* a part that goes on as a part */
     run.parts = 3;
     run.part = 1;

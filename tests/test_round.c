@@ -605,7 +605,7 @@ static void test_lobes(void)
         there &= buffon_density_sample(x, &pdf, u, 1, &lambert) == BUFFON_OK &&
                  buffon_density_pdf(&again, x, 1, &cosine) == BUFFON_OK;
         error = fmax(error, fabs(again - pdf) / pdf);
-        there &= buffon_density_pdf(&again, x, 1, &flat) == BUFFON_OK && again == flat.param[12];
+        there &= buffon_density_pdf(&again, x, 1, &flat) == BUFFON_OK && again == flat.param[13];
         there &= buffon_density_sample(x, &pdf, u, 1, &sharp) == BUFFON_OK && pdf > 0;
         length = fmax(length, fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1));
         there &= buffon_density_pdf(&again, x, 1, &sharp) == BUFFON_OK && again > 0;

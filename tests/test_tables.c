@@ -428,6 +428,119 @@ static void test_bilinear(void)
            "bilinear: nothing outside");
 }
 
+/* Piece k of n that holds x, and how far in it x is. */
+static size_t place_in(wide *s, double x, size_t n)
+{
+    const wide at = (wide)x * (wide)n;
+    const size_t k = at < (wide)n ? (size_t)at : n - 1;
+    *s = at - (wide)k;
+    return k;
+}
+
+/* The integral of a row of nodes up to x, and all of it; g there. */
+static wide along(wide *all, wide *here, const wide *node, size_t n, double x)
+{
+    wide s, below = 0;
+    const size_t at = place_in(&s, x, n - 1);
+    *all = 0;
+    for (size_t k = 0; k + 1 < n; k++) {
+        const wide mass = (node[k] + node[k + 1]) / 2;
+        below += k < at ? mass : 0;
+        *all += mass;
+    }
+    below += s * (node[at] * (2 - s) + node[at + 1] * s) / 2;
+    *here = node[at] * (1 - s) + node[at + 1] * s;
+    *all /= (wide)(n - 1);
+    return below / (wide)(n - 1);
+}
+
+static void see_surface(const char *name, size_t columns, size_t rows, buffon_rng *rng)
+{
+    static wide line[MOST], row[MOST];
+    double off = 0, pdf_off = 0, back = 0;
+    memset(block, 0xa5, sizeof block);
+    const buffon_density g = buffon_bilinear_grid(block, sizeof block, height, columns, rows);
+    int support = g.status == BUFFON_OK, agree = 1;
+    for (size_t r = 0; r < rows; r++) {
+        wide here;
+        for (size_t c = 0; c < columns; c++)
+            line[c] = height[r * columns + c];
+        (void)along(&row[r], &here, line, columns, 1);
+    }
+    for (int i = 0; i < DRAWS / 5 && support; i++) {
+        double u[2], x[2], pdf, again, v[2];
+        wide here, all, total, marginal, s;
+        grid_pair(u, rng, i);
+        support &= buffon_density_sample(x, &pdf, u, 1, &g) == BUFFON_OK && pdf > 0;
+        support &= buffon_density_pdf(&again, x, 1, &g) == BUFFON_OK;
+        support &= buffon_density_invert(v, x, 1, &g) == BUFFON_OK;
+        support &= x[0] >= 0 && x[0] <= 1 && x[1] >= 0 && x[1] <= 1;
+        agree &= pdf == again;
+        const wide b = along(&total, &marginal, row, rows, x[1]) / total;
+        const size_t r = place_in(&s, x[1], rows - 1);
+        for (size_t c = 0; c < columns; c++)
+            line[c] = height[r * columns + c] * (1 - s) + height[(r + 1) * columns + c] * s;
+        const wide a = along(&all, &here, line, columns, x[0]) / all;
+        const double grain[2] = {0x1p-52 + (double)(here / all) * ulp(x[0]),
+                                 0x1p-52 + (double)(marginal / total) * ulp(x[1])};
+        off = fmax(off, (double)fabsl(a - u[0]) / grain[0]);
+        off = fmax(off, (double)fabsl(b - u[1]) / grain[1]);
+        pdf_off = fmax(pdf_off, (double)fabsl(pdf - here / total) / ulp(here / total));
+        back = fmax(back, fmax(fabs(v[0] - u[0]) / grain[0], fabs(v[1] - u[1]) / grain[1]));
+    }
+    tap_ok(support, "surface, %s: points lie where g is positive", name);
+    tap_ok(agree, "surface, %s: the pdf of a sample is that at its point", name);
+    at_most(off, 2, name, "surface, F is u");
+    at_most(pdf_off, 5, name, "surface, pdf");
+    at_most(back, 4, name, "surface, and back");
+}
+
+static void test_surface(void)
+{
+    buffon_rng rng = buffon_rng_make(10, 42);
+    fill(MOST, 2, 1, DBL_MAX, &rng);
+    see_surface("37 by 29", 37, 29, &rng);
+    fill(MOST, 30, 1, 0x1p-1040, &rng);
+    memset(height + 5 * 40, 0, 80 * sizeof *height);
+    see_surface("40 by 20 with two rows of 0", 40, 20, &rng);
+    fill(MOST, 900, 1, 1, &rng);
+    see_surface("9 by 7, very uneven", 9, 7, &rng);
+    memset(height, 0, sizeof height);
+    height[3 * 5 + 2] = 1;
+    see_surface("a peak", 5, 6, &rng);
+    height[0] = 1;
+    see_surface("a corner", 2, 2, &rng);
+    const double flat[4] = {2, 2, 2, 2}, two[4] = {1, 4, 3, 0.5};
+    const buffon_density h = buffon_bilinear_grid(block, sizeof block, flat, 2, 2);
+    const buffon_density g = buffon_bilinear_grid(moved, sizeof moved, two, 2, 2);
+    const buffon_density one = buffon_bilinear(1, 4, 3, 0.5);
+    int good = 1;
+    for (int i = 0; i < 1000; i++) {
+        double u[2], x[2], y[2], p[2];
+        grid_pair(u, &rng, i);
+        good &= buffon_density_sample(x, &p[0], u, 1, &h) == BUFFON_OK;
+        good &= fabs(x[0] - u[0]) <= 0x1p-52 && fabs(x[1] - u[1]) <= 0x1p-52 && p[0] == 1;
+        good &= buffon_density_sample(x, &p[0], u, 1, &g) == BUFFON_OK;
+        good &= buffon_density_sample(y, &p[1], u, 1, &one) == BUFFON_OK;
+        good &= fabs(x[0] - y[0]) <= 0x1p-49 && fabs(x[1] - y[1]) <= 0x1p-50;
+    }
+    tap_ok(good, "surface: of one cell, as buffon_bilinear");
+    /* Where g is 0 on a line, at uniforms that lead there, and past the last column with any. */
+    const double cross[9] = {1, 0, 1, 0, 0, 0, 1, 0, 1}, left[8] = {1, 2, 0, 0, 3, 1, 0, 0};
+    const double gap[8] = {1, 0, 1, 1, 1, 0, 1, 1}, half[2] = {0.5, 0.5}, third[2] = {1 / 3.0, 0.5};
+    const buffon_density c = buffon_bilinear_grid(block, sizeof block, cross, 3, 3);
+    double x[2], pdf;
+    good = buffon_density_sample(x, &pdf, half, 1, &c) == BUFFON_OK && pdf > 0;
+    const buffon_density third_at = buffon_bilinear_grid(block, sizeof block, gap, 4, 2);
+    good &= buffon_density_pdf(&pdf, third, 1, &third_at) == BUFFON_OK && pdf > 0 && pdf < 1e-15;
+    const buffon_density l = buffon_bilinear_grid(block, sizeof block, left, 4, 2);
+    for (int i = 0; i < 2000; i++) {
+        const double u[2] = {1 - 0x1p-53, buffon_rng_next(&rng)};
+        good &= buffon_density_sample(x, &pdf, u, 1, &l) == BUFFON_OK && pdf > 0 && x[0] < 0.67;
+    }
+    tap_ok(good, "surface: lines and corners where g is 0 are not drawn");
+}
+
 /* ---- the sky ---- */
 
 /* An image and what is true of it: where its rows begin below the north pole, their heights, what
@@ -606,6 +719,31 @@ static void test_even_sky(void)
            "what is no direction has no pdf");
 }
 
+/* What memory held before is no part of a table. */
+static void test_clean(void)
+{
+    static unsigned char first[32 * 200], second[32 * 200];
+    const double w[35] = {0, 0, 0, 0, 0, 1, 0, 2, 0, 3, 0, 0, 0, 0, 0, 4, -0.0, 5};
+    int same = 1;
+    for (int t = 0; t < 7; t++) {
+        for (int k = 0; k < 2; k++) {
+            memset(block, k ? 0xff : 0x5a, sizeof block);
+            const buffon_density g =
+                t == 0   ? buffon_alias(block, sizeof block, w, 35)
+                : t == 1 ? buffon_guide(block, sizeof block, w, 35)
+                : t == 2 ? buffon_piecewise_constant(block, sizeof block, NULL, w, 35)
+                : t == 3 ? buffon_piecewise_linear(block, sizeof block, NULL, w, 35)
+                : t == 4 ? buffon_piecewise_grid(block, sizeof block, w, 5, 7)
+                : t == 5 ? buffon_bilinear_grid(block, sizeof block, w, 5, 7)
+                         : buffon_environment(block, sizeof block, w, 5, 7);
+            const size_t size = (size_t)((const buffon_priv_table *)g.data[0])->bytes;
+            memcpy(k ? second : first, block, size < sizeof first ? size : 0);
+            same &= k == 0 || memcmp(first, second, size) == 0;
+        }
+    }
+    tap_ok(same, "what memory held before is no part of a table");
+}
+
 /* ---- what is refused, and tables that travel ---- */
 
 static void test_refusals(void)
@@ -645,6 +783,8 @@ static void test_refusals(void)
                          bad[k].status, bad[k].what);
         refused_by_value(buffon_environment(block, sizeof block, bad[k].height, 2, 2),
                          bad[k].status, bad[k].what);
+        refused_by_value(buffon_bilinear_grid(block, sizeof block, bad[k].height, 2, 2),
+                         bad[k].status, bad[k].what);
     }
     const float dark[2] = {0, 0}, odd[2] = {1, (float)NAN}, below[2] = {1, -1};
     refused_by_value(buffon_environment_float(block, sizeof block, dark, 2, 1), BUFFON_E_SHAPE,
@@ -662,6 +802,9 @@ static void test_refusals(void)
     refused_by_value(buffon_piecewise_grid(block, sizeof block, h, 0, 2), BUFFON_E_DIM,
                      "no column");
     refused_by_value(buffon_environment(block, sizeof block, h, 2, 0), BUFFON_E_DIM, "no row");
+    refused_by_value(buffon_bilinear_grid(block, sizeof block, h, 2, 1), BUFFON_E_DIM, "one row");
+    refused_by_value(buffon_bilinear_grid(block, buffon_bilinear_grid_size(2, 2) - 1, h, 2, 2),
+                     BUFFON_E_SIZE, "a byte less");
     refused_by_value(buffon_environment(NULL, 9999, h, 2, 2), BUFFON_E_NULL, "no memory");
     refused_by_value(buffon_environment(block, buffon_environment_size(2, 2) - 1, h, 2, 2),
                      BUFFON_E_SIZE, "a byte less");
@@ -683,16 +826,18 @@ static void test_refusals(void)
 static void test_open(void)
 {
     buffon_rng rng = buffon_rng_make(8, 42);
-    for (int t = 0; t < 4; t++) {
+    for (int t = 0; t < 5; t++) {
         fill(60, 3, 1, 1, &rng);
         const buffon_density g =
             t == 0   ? buffon_piecewise_constant(block, sizeof block, edge, height, 60)
             : t == 1 ? buffon_piecewise_linear(block, sizeof block, edge, height, 60)
             : t == 2 ? buffon_piecewise_grid(block, sizeof block, height, 10, 6)
+            : t == 3 ? buffon_bilinear_grid(block, sizeof block, height, 10, 6)
                      : buffon_environment(block, sizeof block, height, 10, 6);
         const size_t size = t == 0   ? buffon_piecewise_constant_size(60)
                             : t == 1 ? buffon_piecewise_linear_size(60)
                             : t == 2 ? buffon_piecewise_grid_size(10, 6)
+                            : t == 3 ? buffon_bilinear_grid_size(10, 6)
                                      : buffon_environment_size(10, 6);
         double u[40], x[60], y[60], p[20], q[20];
         memcpy(moved, block, size);
@@ -728,8 +873,10 @@ int main(void)
     test_no_uniforms();
     test_grid();
     test_bilinear();
+    test_surface();
     test_sky();
     test_even_sky();
+    test_clean();
     test_refusals();
     test_open();
     return tap_done();

@@ -100,6 +100,11 @@ ROOM(image, buffon_piecewise_grid_size(72, 72));
 ENTRY("Image", "Points fall where it is bright.", FIELD(0, 1, 0, 1),
       buffon_piecewise_grid(image, image_size, rose, 72, 72));
 
+const double nodes[] = {0, 1, 0, 0, 1, 1, 0, 3, 1, 2, 0, 1, 0, 0, 6, 1, 0, 2, 1, 0, 0, 1, 0, 3, 0};
+ROOM(nodal, buffon_bilinear_grid_size(5, 5));
+ENTRY("Surface", "Heights at the nodes of a grid, bilinear in between.", FIELD(0, 1, 0, 1),
+      buffon_bilinear_grid(nodal, nodal_size, nodes, 5, 5));
+
 static double sky[64 * 32];
 for (int i = 0; i < 64 * 32; i++) {
     const double angle = 3.14159265 * (i / 64 + 0.5) / 32, turn = 6.2831853 * (i % 64 + 0.5) / 64;
@@ -133,7 +138,8 @@ ENTRY("Binomial", "How many of n are yes.", BARS(0, 20), buffon_binomial(20, 0.4
 
 ENTRY("Geometric", "How many noes before the first yes.", BARS(0, 16), buffon_geometric(0.25));
 
-ENTRY("Poisson", "Counts of rare things: clicks, calls, photons.", BARS(0, 14), buffon_poisson(4.5));
+ENTRY("Poisson", "Counts of rare things: clicks, calls, photons.", BARS(0, 14),
+      buffon_poisson(4.5));
 
 /* ---- shapes in the plane ---- */
 GROUP("Shapes in the plane", "The net is the image of a square one: each of its 64 cells has the "
@@ -269,5 +275,5 @@ const buffon_density upright = buffon_hemisphere_power(30);
 ENTRY("Turned", "Any density in space about another axis.", SPHERE,
       buffon_turned_to(&upright, lamp));
 
-ENTRY("Product of disk and segment", "A solid cylinder.", SPACE(0, 0, 0, 1.05),
+ENTRY("Solid product", "A disk times a segment is a solid cylinder.", SPACE(0, 0, 0, 1.05),
       buffon_density_product(round, 2));

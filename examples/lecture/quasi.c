@@ -281,8 +281,9 @@ void tell_quasi(story *s)
                 "leaves the boxes as even as they were. Eight scrambles, independent of each "
                 "other, give eight means, and their spread gives the interval, which is "
                 "Student&rsquo;s with 7 degrees of freedom: here one <i>z</i> in twenty lies "
-                "beyond &plusmn;2.4. One scramble of all the points would be nearer still, and "
-                "could not say how near.");
+                "beyond &plusmn;2.4. One scramble of all the points is nearer still. Its error bar "
+                "comes from eight stretches of it, which are not independent: it is as long as "
+                "that of eight scrambles, longer than it need be.");
     draw_patterns(s);
     story_code(s, "buffon_points sobol = buffon_points_sobol(BUFFON_SCRAMBLE_OWEN);\n"
                "buffon_run run = {.samples = 1 << 17, .points = &sobol}; /* 8 x 2^14 */\n"

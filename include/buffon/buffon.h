@@ -5,8 +5,8 @@
  *     layer 2  density
  *     layer 2  box  disk  sphere  cap  cap_cosine  hemisphere  directional
  *     layer 2  ball  cylinder  sphere_n  simplex  parallelogram  spherical  rotation
- *     layer 2  inversion  inverse_table  exponential  normal  laws  gamma  beta  student  counts
- *     layer 2  table  alias  piecewise  bilinear  environment
+ *     layer 2  inversion  exponential  normal  laws  gamma  beta  student  counts
+ *     layer 2  table  alias  piecewise  bilinear  environment  inverse_table
  *     layer 2  mixture  truncated  affine
  *     layer 2  verify_density
  *     layer 3  run  uniform  rejection  importance  inverse_cdf  stratified

@@ -45,7 +45,8 @@ BUFFON_API double buffon_cap_irradiance(double half_angle, const double axis[3],
  *  Exact:   |x| within 2^-49 of 1. About +z: points of a cap above the horizon within 2^-48 of its
  *           size; across the horizon the areas that u1 and u2 divide are met within 2^-48 and 2^-46
  *           of themselves, times 1 + t / (b + t); the cosine at the point within 2^-48 of the
- *           highest. So g at a point that is nearer than rounding to the horizon may be 0
+ *           highest, so g at a point that is nearer than rounding to the horizon may be 0. Where
+ *           the normal is a coordinate axis the cosine has all its digits, however low
  *           (tests/test_cap_cosine.c)
  *  Cost:    where the horizon cuts the cap, an equation is solved for each point: about a
  *           microsecond, a hundred times as long
@@ -55,6 +56,35 @@ BUFFON_API double buffon_cap_irradiance(double half_angle, const double axis[3],
  */
 BUFFON_API buffon_density buffon_cap_cosine(double half_angle, const double axis[3],
                                             const double normal[3]);
+
+/** The irradiance of a surface from a sphere of radiance 1 that nothing hides.
+ *
+ *  In:      from[3]    the place on the surface
+ *           centre[3]  of the sphere; coordinates up to 2^1000
+ *           radius     of the sphere, > 0, 2^1000 at most
+ *           normal[3]  of the surface: any length but zero, finite
+ *  Law:     buffon_cap_irradiance of the cap that buffon_cap_of_sphere makes
+ *  Returns: the integral, from 0 to pi; NaN where buffon_cap_of_sphere would refuse its arguments:
+ *           also when `from` lies in or on the sphere
+ *  Exact:   as buffon_cap_irradiance, where the distance is 1.1 radii or more; nearer, as far as
+ *           distance minus radius is known (tests/test_cap_cosine.c)
+ *  Since:   0.1
+ */
+BUFFON_API double buffon_cap_irradiance_of_sphere(const double from[3], const double centre[3],
+                                                  double radius, const double normal[3]);
+
+/** The density max(0, cosine from the normal) / irradiance on the directions of a sphere.
+ *
+ *  In:      from[3], centre[3], radius, normal[3]  as buffon_cap_irradiance_of_sphere
+ *  Law:     buffon_cap_cosine on the cap that buffon_cap_of_sphere makes
+ *  Draws:   2
+ *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also when
+ *           `from` lies in or on the sphere, or all of the sphere below the horizon
+ *  Exact:   as buffon_cap_cosine and buffon_cap_irradiance_of_sphere (tests/test_cap_cosine.c)
+ *  Since:   0.1
+ */
+BUFFON_API buffon_density buffon_cap_cosine_of_sphere(const double from[3], const double centre[3],
+                                                      double radius, const double normal[3]);
 
 BUFFON_END
 

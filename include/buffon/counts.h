@@ -62,7 +62,7 @@ BUFFON_API buffon_density buffon_binomial(uint64_t n, double p);
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE
  *  Exact:   pdf within 4e-15 (1 + |log|) of itself (tests/test_counts.c)
- *  Cost:    0.015 us a point up to a mean of 200, with 1 us a batch; 0.5 to 0.8 us a point above
+ *  Cost:    0.015 us a point up to a mean of 200, with 1 us a batch; 0.4 to 0.6 us a point above
  *  Source:  as buffon_binomial
  *  Since:   0.1
  */

@@ -31,7 +31,8 @@ BUFFON_BEGIN
  *           (weights), or the first part's status that is not BUFFON_OK. Its pdf is there if all
  *           parts have one; its logarithm holds where all of them underflow
  *  Exact:   g within count + 2 ulp and the errors of the parts (tests/test_combinators.c)
- *  Cost:    each point once in its part, and the pdf of all parts at each point; 8 KiB of stack
+ *  Cost:    each point once in its part, and the pdf of all parts at each point. 24 KiB of stack
+ *           for each mixture within a mixture
  *  Source:  T. Hesterberg (1995), Weighted average importance sampling and defensive mixture
  *           distributions, Technometrics 37
  *  Since:   0.1

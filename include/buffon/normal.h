@@ -31,7 +31,8 @@ BUFFON_API buffon_density buffon_normal(double mean, double sd);
  *
  *  In:      mean, sd  as for buffon_normal
  *           lo, hi    lo < hi; either may be infinite, or both. The one nearer to the mean within
- *                     2^400 sd of it; hi - lo from 2^-1000 sd up
+ *                     2^400 sd of it; hi - lo from 2^-1000 sd up; the greatest density at
+ *                     most 2^1000
  *  Law:     distances d from the nearer bound, where the density is exp(-a d - d^2 / 2) and a its
  *           distance from the mean in sd, solve D(d) = u D(hi - lo) with
  *           D(d) = integral of that density from 0 to d: a ratio of masses that does not underflow
@@ -51,8 +52,8 @@ BUFFON_API buffon_density buffon_normal_truncated(double mean, double sd, double
 
 /** The lognormal density: of the exponential of a normal variate.
  *
- *  In:      mu, sigma  mean and standard deviation of log x; sigma from 2^-500 up,
- *                      |mu| + 9 sigma <= 700
+ *  In:      mu, sigma  mean and standard deviation of log x; sigma from 2^-60 up,
+ *                      |mu| + 9 sigma <= 650
  *  Law:     x = exp(mu + sigma z), z the normal quantile of u;
  *           g = exp(-z^2 / 2) / (x sigma sqrt(2 pi))
  *  Draws:   1

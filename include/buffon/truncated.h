@@ -19,9 +19,9 @@ BUFFON_BEGIN
  *           normal there is buffon_normal_truncated, for the exponential
  *           buffon_exponential_truncated
  *  Draws:   1
- *  Returns: a density; it carries BUFFON_E_NULL, the status of g, BUFFON_E_DIM, BUFFON_E_DOMAIN (lo,
- *           hi, or too little of g between them: fewer than 2^20 doubles from F(lo) to F(hi)), or
- *           BUFFON_E_UNSUPPORTED (no way back)
+ *  Returns: a density; it carries BUFFON_E_NULL, the status of g, BUFFON_E_DIM, BUFFON_E_DOMAIN
+ *           (lo, hi, or too little of g between them: fewer than some 2^20 doubles from F(lo) to
+ *           F(hi)), or BUFFON_E_UNSUPPORTED (no way back)
  *  Exact:   as g is, and what an error of F(lo) and F(hi) is worth (tests/test_combinators.c)
  *  Since:   0.1
  */

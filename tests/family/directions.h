@@ -1,4 +1,4 @@
-/* The table of all densities (family.h): directions about an axis, spheres and balls of any dimension. */
+/* The table of all densities (family.h): directions about an axis, spheres of any dimension. */
 #ifndef TESTS_FAMILY_DIRECTIONS_H
 #define TESTS_FAMILY_DIRECTIONS_H
 

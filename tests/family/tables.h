@@ -54,6 +54,7 @@ static void family_tables(void)
     static const double thin[] = {0, 1e-200, 1e-10, 1, 1e10, 1e200};
     static double grid[16 * 9];
     const size_t size = buffon_piecewise_grid_size(16, 9);
+    const size_t surface = buffon_bilinear_grid_size(16, 9);
     for (size_t k = 0; k < 16 * 9; k++)
         grid[k] = (double)(k * 5 % 23) - 2 > 0 ? (double)(k * 5 % 23) : 0;
     family_items();
@@ -65,6 +66,8 @@ static void family_tables(void)
     family_add("lines, even", buffon_piecewise_linear(family_room(size), size, NULL, height, 6));
     family_plain("grid", buffon_piecewise_grid(family_room(size), size, grid, 16, 9));
     family_plain("bilinear", buffon_bilinear(1, 2, 0.5, 4));
+    family_plain("bilinear grid",
+                 buffon_bilinear_grid(family_room(surface), surface, grid, 16, 9));
     family_add("bilinear, two corners", buffon_bilinear(0, 1, 1, 0));
     family_add("bilinear, one corner", buffon_bilinear(0, 0, 0x1p-1000, 0));
     family_skies();
