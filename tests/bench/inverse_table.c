@@ -2,8 +2,8 @@
  * make one, to draw by it, and how far F(Q(u)) is from u, over the laws of laws40.h. Both are asked
  * for a u-error of 1e-12. Buffon's tables reach down to p = 1e-300, UNU.RAN's are cut at 5e-14;
  * `short` is the time for one of buffon's that reaches down to 1e-15. Times are the least of some
- * repeats that take turns; draws are the second of two passes. They are from the same uniforms in memory, and with each library's own
- * generator. */
+ * repeats that take turns; draws are the second of two passes, from the same uniforms in memory,
+ * and with each library's own generator. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
