@@ -405,8 +405,9 @@ static int build_tail(build_walk *w, build_part part, build_place from)
     const double worst = w->worst + b->tail_error;
     b->report->tail_error = worst > b->report->tail_error ? worst : b->report->tail_error;
     const double reached = b->reached[part] / b->total;
-    *(part == BUILD_UPPER ? &b->report->upper : &b->report->lower) =
-        reached > b->tail ? reached : b->tail;
+    *(part == BUILD_UPPER ? &b->report->upper : &b->report->lower) = reached > 1         ? 1
+                                                                     : reached > b->tail ? reached
+                                                                                         : b->tail;
     return 0;
 }
 

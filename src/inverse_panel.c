@@ -469,6 +469,7 @@ static int panel_tail(inverse_builder *b, panel_march *m, int up, int side)
             if (panel_give_up(b, &end, side))
                 break;
             panel_flatten(&t.panel, t.panel.mass);
+            t.error = t.peak * step;
             m->step = 4 * step;
         }
         const int creeps = step < 0.02 && step < 0.02 * rate;
@@ -548,6 +549,7 @@ static int panel_inner(inverse_builder *b, panel_march *m, int pole)
             if (step > PANEL_FINE && t.peak * step > wanted)
                 continue;
             panel_flatten(&t.panel, t.panel.mass);
+            t.error = t.peak * step;
             m->step = 4 * step;
         }
         if (panel_push(b, &t.panel, t.error))
