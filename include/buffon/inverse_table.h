@@ -85,7 +85,7 @@ typedef struct buffon_inverse_table buffon_inverse_table;
  *           for; BUFFON_E_NULL; BUFFON_E_DOMAIN (lo, hi, centre, breaks, poles); BUFFON_E_TOLERANCE
  *           (u_error, tail); BUFFON_E_RESERVED; BUFFON_E_PDF: a value is negative or not finite, or
  *           the integral is zero or infinite; BUFFON_E_NOMEM
- *  Exact:   u_error as measured against the CDF itself: 1e-12 asked for and reached for the 40 laws
+ *  Exact:   u_error as measured against the CDF itself: 1e-12 asked for and reached for the 42 laws
  *           of tests/laws40.h (tests/test_inverse_table.c)
  *  Repeat:  the same bits wherever pdf gives the same
  *  Cost:    500 to 10000 calls of pdf for smooth laws, most of them for tails down to 1e-300
@@ -132,8 +132,9 @@ BUFFON_API size_t buffon_inverse_table_bytes(const buffon_inverse_table *table);
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_NULL, or BUFFON_E_TABLE where the memory
  *           holds no table
- *  Exact:   see buffon_inverse_table_new for Q. g agrees with differences of u within 1e-9, inverts
- *           to u within 1e-13 and what 4 ulp of x are worth (tests/test_inverse_table.c)
+ *  Exact:   see buffon_inverse_table_new for Q. g at a point is that of its draw within 1e-9, and it
+ *           inverts to u within 1e-13, each but for what 4 ulp of x are worth
+ *           (tests/test_inverse_table.c)
  *  Repeat:  each x depends on its u alone
  *  Since:   0.1
  */
