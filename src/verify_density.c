@@ -550,8 +550,8 @@ static size_t verify_cell(const verify_grid *grid, const double *v, size_t strid
     return cell;
 }
 
-/* VERIFY_PER_CELL points of a cell, from point i of the cloud on, in uniforms of `over`: random, one
- * in each slice of the cell, along every axis. The slices are taken in order k, a k + b, ... */
+/* VERIFY_PER_CELL points of a cell, from point i of the cloud on, in uniforms of `over`: random,
+ * one in each slice of the cell, along every axis. Point k lies in slice a k + b. */
 static void verify_slices(verify *t, size_t n, size_t i, const verify_grid *grid, size_t cell)
 {
     const size_t slices = VERIFY_PER_CELL; /* a power of two */
