@@ -9,7 +9,7 @@
 #include "elementary.h"
 #include "ramp.h"
 #include "shares.h"
-#include "pair_math.h"
+#include "pair.h"
 
 /* param: v00, v10, v01, v11, scaled by a power of two so that the largest is in [1/2, 1); then four
  * over their sum. */

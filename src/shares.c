@@ -3,7 +3,7 @@
 #include "shares.h"
 
 #include "elementary.h"
-#include "pair_math.h"
+#include "pair.h"
 
 int buffon_priv_shares_scale(buffon_priv_shares *sum, double most)
 {

@@ -82,9 +82,8 @@ static void mises_integrate(double *mass, const double *from, const double *leng
 static void mises_mass(double *mass, const double *h, const double *square, int inner, int fine,
                        size_t n, double kappa)
 {
-    double length[MISES_TILE], s[MISES_TILE], c[MISES_TILE];
+    double length[MISES_TILE], s[MISES_TILE] = {0}, c[MISES_TILE] = {0};
     if (inner) {
-        density_fill(s, 0, n);
         mises_integrate(mass, s, h, square, n, kappa, 0);
         return;
     }

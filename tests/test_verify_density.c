@@ -279,6 +279,20 @@ static void answers(buffon_status got, buffon_status wanted, const char *what)
         tap_note("got %s", buffon_status_name(got));
 }
 
+/* A pdf that ends in a jump, anywhere in a cell. */
+static void test_jumps(void)
+{
+    int passed = 0;
+    for (int k = 0; k < 50; k++) {
+        const buffon_density g = buffon_power(0.5 + 0.05 * k, 0, 1 + 0.01 * k);
+        const buffon_verification how = {.samples = 1 << 14, .seed = (uint64_t)k};
+        buffon_verify_report r;
+        passed += buffon_verify_density(&r, &g, &how) == BUFFON_OK;
+    }
+    tap_ok(passed == 50, "fifty pdfs that end in a jump pass");
+    tap_note("%d of 50", passed);
+}
+
 /* A surface needs `over`: a flat square in space. */
 static void test_over(void)
 {
@@ -350,6 +364,7 @@ int main(void)
     test_discrete();
     test_place();
     test_rate();
+    test_jumps();
     test_over();
     test_probabilities();
     test_refused();
