@@ -132,8 +132,8 @@ BUFFON_API size_t buffon_inverse_table_bytes(const buffon_inverse_table *table);
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_NULL, or BUFFON_E_TABLE where the memory
  *           holds no table
- *  Exact:   see buffon_inverse_table_new for Q. g at a point is that of its draw within 1e-9, and it
- *           inverts to u within 1e-13, each but for what 4 ulp of x are worth
+ *  Exact:   see buffon_inverse_table_new for Q. g at a point is that of its draw within 1e-9, and
+ *           it inverts to u within 1e-13, each but for what 4 ulp of x are worth
  *           (tests/test_inverse_table.c)
  *  Repeat:  each x depends on its u alone
  *  Since:   0.1
