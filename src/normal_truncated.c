@@ -360,22 +360,6 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
 
 /* `param`: mu, sigma. */
 
-static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
-                            const buffon_density *g)
-{
-    const double mu = g->param[0], sigma = g->param[1];
-    buffon_math_normal_quantile(x, u, n);
-    for (size_t i = 0; i < n; i++) {
-        const twofold shift = twofold_product(sigma, x[i]), sum = twofold_sum(mu, shift.hi);
-        const twofold all = twofold_sum(sum.hi, sum.lo + shift.lo);
-        const double z = x[i];
-        x[i] = twofold_exp(all, 1);
-        if (pdf)
-            pdf[i] = buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / sigma / x[i];
-    }
-    return 0;
-}
-
 /* z of x, and log x. */
 static double lognormal_place(double *log_x, double x, const buffon_density *g)
 {
@@ -389,15 +373,36 @@ static int lognormal_holds(double x)
     return x > 0 && x <= DBL_MAX;
 }
 
+static double lognormal_at(double x, double z, const buffon_density *g)
+{
+    return buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / g->param[1] / x;
+}
+
+/* Tiny u may lead below the doubles, and where x has lost digits g is that at x. */
+static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
+                            const buffon_density *g)
+{
+    const double mu = g->param[0], sigma = g->param[1];
+    buffon_math_normal_quantile(x, u, n);
+    for (size_t i = 0; i < n; i++) {
+        const twofold shift = twofold_product(sigma, x[i]), sum = twofold_sum(mu, shift.hi);
+        const twofold all = twofold_sum(sum.hi, sum.lo + shift.lo);
+        const double z = x[i];
+        double log_x;
+        x[i] = twofold_exp(all, 1);
+        x[i] = x[i] > 0 ? x[i] : 0x1p-1074;
+        if (pdf)
+            pdf[i] = lognormal_at(x[i], x[i] < DBL_MIN ? lognormal_place(&log_x, x[i], g) : z, g);
+    }
+    return 0;
+}
+
 static int lognormal_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
     for (size_t i = 0; i < n; i++) {
-        pdf[i] = 0;
-        if (lognormal_holds(x[i])) {
-            double log_x;
-            const double z = lognormal_place(&log_x, x[i], g);
-            pdf[i] = buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / g->param[1] / x[i];
-        }
+        double log_x;
+        pdf[i] =
+            lognormal_holds(x[i]) ? lognormal_at(x[i], lognormal_place(&log_x, x[i], g), g) : 0;
     }
     return 0;
 }

@@ -778,6 +778,33 @@ static void test_special_points(void)
     tap_ok(special(buffon_weibull(2, 1), below, 5, 1, 2 * exp(-1)), "weibull: known inside");
 }
 
+/* Whether g is finite, and that of the point, at points of the smallest uniforms. */
+static int least_points(buffon_density g)
+{
+    static const double u[] = {0x1p-1074, 1e-300, 1e-200};
+    int good = g.status == BUFFON_OK;
+    for (int i = 0; i < 3; i++) {
+        const answer at = draw(&g, u[i]);
+        good &= at.x > 0 && at.pdf <= DBL_MAX && (at.x >= DBL_MIN || at.pdf == pdf_at(&g, at.x));
+    }
+    return good;
+}
+
+static void test_least_points(void)
+{
+    const buffon_density uniform = buffon_power(0, 0, 1), steep = buffon_power(-0.5, 0, 1);
+    const buffon_density exponential = buffon_weibull(1, 1), rayleigh = buffon_weibull(2, 0x1p-500);
+    const double x = 0x1p-1074;
+    tap_ok(pdf_at(&uniform, x) == 1 && pdf_at(&exponential, x) == 1 &&
+               fabs(pdf_at(&steep, x) / 0x1p536 - 1) < 1e-15 &&
+               fabs(pdf_at(&rayleigh, x) / 0x1p-73 - 1) < 1e-15,
+           "powers and weibull: g where the inverse of x is no double");
+    tap_ok(least_points(uniform) && least_points(steep) && least_points(exponential) &&
+               least_points(buffon_weibull(0.5, 1)) && least_points(buffon_power(1, 0, 1e-200)) &&
+               least_points(buffon_lognormal(0, 77)) && least_points(buffon_lognormal(-690, 1)),
+           "points of the smallest uniforms, and g at them");
+}
+
 static void test_known_points(void)
 {
     const buffon_density cube = buffon_power(2, 0, 1), log_uniform = buffon_power(-1, 1, 16);
@@ -835,6 +862,7 @@ int main(void)
     test_refused();
     test_special_points();
     test_known_points();
+    test_least_points();
     test_order();
     return tap_done();
 }
