@@ -579,6 +579,25 @@ static void see_between(errors *w, double mean, double sd, double lo, double hi,
             64 + 4 * (double)(size + fabsl(a)) * (mean != 0 ? 8 : 2), at);
 }
 
+/* Next to a mean that is not in the middle: by the share below it, which is not to be had exactly. */
+static void test_near_mean(void)
+{
+    static const double lo[] = {-0.1, -1, -3, -5, -8}, hi[] = {0.3, 3, 9, 6, 10};
+    double worst = 0;
+    for (int k = 0; k < 5; k++) {
+        const buffon_density g = buffon_normal_truncated(0, 1, lo[k], hi[k]);
+        const wide a = lo[k], all = bell_mass(a, 0, (wide)hi[k] - a);
+        const double mean = (double)(bell_mass(a, 0, -a) / all);
+        for (int i = 0; i < 60; i++) {
+            const double u = mean + (i % 2 ? 1 : -1) * ldexp(1, -4 - i);
+            const wide d = (wide)draw(&g, u).x - lo[k];
+            const wide off = (bell_mass(a, 0, d) - u * all) / expl(-d * (a + d / 2));
+            worst = fmax(worst, fabs((double)off));
+        }
+    }
+    tap_ok(worst <= 0x1p-51, "normal between bounds: next to the mean within %.2g sd", worst);
+}
+
 static void test_between(void)
 {
     errors w = {0};
@@ -855,6 +874,7 @@ int main(void)
         test_weibull();
         test_exponential();
         test_between();
+        test_near_mean();
         test_lognormal();
     } else {
         tap_ok(1, "formulas # SKIP long double is no wider than double");
