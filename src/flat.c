@@ -124,7 +124,7 @@ static void flat_walls_line(flat_walls *w, const double e[3])
  * n x (e2 - e1) points to the origin. */
 static void flat_walls_plane(flat_walls *w, pair (*e)[3], size_t dim, flat_kind kind)
 {
-    double n[3], v[3];
+    double n[3] = {0, 0, 0}, v[3] = {0, 0, 0};
     pair normal[3], third[3];
     const double area = flat_across(n, e[0], e[1]);
     flat_widen(normal, n);

@@ -351,6 +351,8 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
         near.m * NORMAL_INV_SQRT_2PI * buffon_priv_exp(near.s - 0.5 * alpha * alpha);
     g.param[NORMAL_CENTRAL] = buffon_priv_copysign(
         normal_middle_mass(buffon_priv_abs(alpha)) * NORMAL_INV_SQRT_2PI, alpha);
+    if (!(normal_whole(g.param) >= 0x1p-1000)) /* its greatest density is not a double */
+        g.status = BUFFON_E_DOMAIN;
     g.param[NORMAL_BELOW] = buffon_priv_normal_cdf(alpha);
     g.param[NORMAL_ABOVE] = buffon_priv_normal_cdf(-beta);
     return g;
@@ -441,7 +443,7 @@ static const buffon_density_ops lognormal_ops = {.sample = lognormal_sample,
 buffon_density buffon_lognormal(double mu, double sigma)
 {
     buffon_density g = {.uniforms = 1, .dim = 1, .ops = &lognormal_ops};
-    if (sigma >= 0x1p-500 && buffon_priv_abs(mu) + 9 * sigma <= 700) {
+    if (sigma >= 0x1p-60 && buffon_priv_abs(mu) + 9 * sigma <= 650) {
         g.param[0] = mu;
         g.param[1] = sigma;
     } else {

@@ -70,8 +70,8 @@ static inline pair pair_log(pair x)
     return pair_log_core(m, k);
 }
 
-/* scale 2^up exp(hi + lo), where the exponential alone may leave the doubles: its power of two comes
- * last. */
+/* scale 2^up exp(hi + lo), where the exponential alone may leave the doubles: its power of two
+ * comes last. */
 static inline double pair_exp_up(pair x, double scale, int up)
 {
     const double most = 4000, z = x.hi * 0x1.71547652b82fep+0;

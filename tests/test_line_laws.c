@@ -579,7 +579,7 @@ static void see_between(errors *w, double mean, double sd, double lo, double hi,
             64 + 4 * (double)(size + fabsl(a)) * (mean != 0 ? 8 : 2), at);
 }
 
-/* Next to a mean that is not in the middle: by the share below it, which is not to be had exactly. */
+/* Next to a mean that is not in the middle: by the share below it, which is not had exactly. */
 static void test_near_mean(void)
 {
     static const double lo[] = {-0.1, -1, -3, -5, -8}, hi[] = {0.3, 3, 9, 6, 10};
