@@ -17,7 +17,8 @@
  * the same, however coarse the table: f / g corrects it. The law's integral comes out on the way.
  *
  * A table holds no pointers: it may be copied, moved, saved and loaded on a machine of the same
- * byte order. It does not call the functions it was made from.
+ * byte order. It does not call the functions it was made from. A normal's takes 40 KiB, others of
+ * tests/laws40.h 2 to 70; 1000 cells would take 200.
  */
 #ifndef BUFFON_INVERSE_TABLE_H
 #define BUFFON_INVERSE_TABLE_H
@@ -132,8 +133,8 @@ BUFFON_API size_t buffon_inverse_table_bytes(const buffon_inverse_table *table);
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_NULL, or BUFFON_E_TABLE where the memory
  *           holds no table
- *  Exact:   see buffon_inverse_table_new for Q. g at a point is that of its draw within 1e-9, and it
- *           inverts to u within 1e-13, each but for what 4 ulp of x are worth
+ *  Exact:   see buffon_inverse_table_new for Q. g at a point is that of its draw within 1e-9, and
+ *           it inverts to u within 1e-13, each but for what 4 ulp of x are worth
  *           (tests/test_inverse_table.c)
  *  Repeat:  each x depends on its u alone
  *  Since:   0.1
