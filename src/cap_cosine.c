@@ -331,7 +331,7 @@ double buffon_cap_irradiance_of_sphere(const double from[3], const double centre
 /* u1 is the place across, both sides of y = 0 alike; u2 goes along the chord, from the horizon. The
  * height of a point at depth d below the circle is sqrt(d (2 r - d)). What it has along the axis is
  * found from the sine, whose digits a small cap needs: a cosine that is off by an ulp would be off
- * the cap. */
+ * the cap. The least of u2 keep off the horizon, where g is 0. */
 static void cap_cosine_draw_cut(double *x, double *pdf, const double *u, size_t n,
                                 const buffon_density *g)
 {
@@ -342,7 +342,8 @@ static void cap_cosine_draw_cut(double *x, double *pdf, const double *u, size_t 
         const int left = u[i] < 0.5;
         const double p = cap_cosine_solve(&k, 2 * (left ? u[i] : 1 - u[i]));
         const cap_cosine_place at = cap_cosine_at(&k, p);
-        const double d = at.gap + u[n + i] * at.chord, b = left ? -at.y : at.y;
+        const double up = u[n + i] < 0x1p-60 ? 0x1p-60 : u[n + i];
+        const double d = at.gap + up * at.chord, b = left ? -at.y : at.y;
         const double z = sqrt(d * (2 * at.r - d)), out = at.r - d;
         const double across = level ? out : z * k.cb - out * k.sb;
         const double height = out * k.cb + z * k.sb;

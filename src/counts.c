@@ -1,5 +1,6 @@
 #include "guard.h"
 
+#include <float.h>
 #include <math.h>
 
 #include <buffon/counts.h>
@@ -151,11 +152,14 @@ static counts_law counts_law_make(const buffon_density *g, int binomial)
     return law;
 }
 
-/* x log(x / m) + m - x, `rest` being m - x. */
+/* x log(x / m) + m - x, `rest` being m - x. A quotient below the normal doubles has lost digits. */
 static double counts_deviance(double x, double m, double rest)
 {
-    const double d = rest / x;
-    return x * (d < -0.5 ? d - buffon_priv_log(m / x) : buffon_priv_deviance(d));
+    const double d = rest / x, ratio = m / x;
+    if (!(d < -0.5))
+        return x * buffon_priv_deviance(d);
+    return x * (d - (ratio < DBL_MIN ? buffon_priv_log(m) - buffon_priv_log(x)
+                                     : buffon_priv_log(ratio)));
 }
 
 /* log P(X = k): Stirling's formula for the factorials, and the deviance of k. */

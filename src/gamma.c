@@ -202,7 +202,8 @@ static double gamma_log_at(const gamma_law *law, double x)
     const double log_y = y > DBL_MIN ? buffon_priv_log(y) : buffon_priv_log(x) - law->log_scale;
     if (a < 1)
         return law->peak + (a * log_y - y);
-    return law->peak + (a * (log_y - law->log_unit) - (y - a));
+    return law->peak +
+           (a * (y / a > DBL_MIN ? buffon_priv_log(y / a) : log_y - law->log_unit) - (y - a));
 }
 
 static double gamma_pdf_at(const gamma_law *law, double x)
@@ -210,6 +211,8 @@ static double gamma_pdf_at(const gamma_law *law, double x)
     if (!(x > 0 && x <= DBL_MAX))
         return 0;
     const double log_d = gamma_log_at(law, x);
+    if (x < DBL_MIN) /* where 1 / x may not be a double */
+        return law->size * buffon_priv_exp(log_d) / x;
     return law->size * (log_d > -700 ? buffon_priv_exp(log_d) / x
                                      : buffon_priv_exp(log_d - buffon_priv_log(x)));
 }

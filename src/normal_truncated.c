@@ -351,8 +351,6 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
         near.m * NORMAL_INV_SQRT_2PI * buffon_priv_exp(near.s - 0.5 * alpha * alpha);
     g.param[NORMAL_CENTRAL] = buffon_priv_copysign(
         normal_middle_mass(buffon_priv_abs(alpha)) * NORMAL_INV_SQRT_2PI, alpha);
-    if (!(normal_whole(g.param) >= 0x1p-1000)) /* its greatest density is not a double */
-        g.status = BUFFON_E_DOMAIN;
     g.param[NORMAL_BELOW] = buffon_priv_normal_cdf(alpha);
     g.param[NORMAL_ABOVE] = buffon_priv_normal_cdf(-beta);
     return g;
@@ -361,22 +359,6 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
 /* ---- lognormal ---------------------------------------------------------------------------- */
 
 /* `param`: mu, sigma. */
-
-static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
-                            const buffon_density *g)
-{
-    const double mu = g->param[0], sigma = g->param[1];
-    buffon_math_normal_quantile(x, u, n);
-    for (size_t i = 0; i < n; i++) {
-        const pair shift = pair_product(sigma, x[i]), sum = pair_sum(mu, shift.hi);
-        const pair all = pair_sum(sum.hi, sum.lo + shift.lo);
-        const double z = x[i];
-        x[i] = pair_exp(all, 1);
-        if (pdf)
-            pdf[i] = buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / sigma / x[i];
-    }
-    return 0;
-}
 
 /* z of x, and log x. */
 static double lognormal_place(double *log_x, double x, const buffon_density *g)
@@ -391,15 +373,36 @@ static int lognormal_holds(double x)
     return x > 0 && x <= DBL_MAX;
 }
 
+static double lognormal_at(double x, double z, const buffon_density *g)
+{
+    return buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / g->param[1] / x;
+}
+
+/* Tiny u may lead below the doubles, and where x has lost digits g is that at x. */
+static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
+                            const buffon_density *g)
+{
+    const double mu = g->param[0], sigma = g->param[1];
+    buffon_math_normal_quantile(x, u, n);
+    for (size_t i = 0; i < n; i++) {
+        const pair shift = pair_product(sigma, x[i]), sum = pair_sum(mu, shift.hi);
+        const pair all = pair_sum(sum.hi, sum.lo + shift.lo);
+        const double z = x[i];
+        double log_x;
+        x[i] = pair_exp(all, 1);
+        x[i] = x[i] > 0 ? x[i] : 0x1p-1074;
+        if (pdf)
+            pdf[i] = lognormal_at(x[i], x[i] < DBL_MIN ? lognormal_place(&log_x, x[i], g) : z, g);
+    }
+    return 0;
+}
+
 static int lognormal_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
     for (size_t i = 0; i < n; i++) {
-        pdf[i] = 0;
-        if (lognormal_holds(x[i])) {
-            double log_x;
-            const double z = lognormal_place(&log_x, x[i], g);
-            pdf[i] = buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / g->param[1] / x[i];
-        }
+        double log_x;
+        pdf[i] =
+            lognormal_holds(x[i]) ? lognormal_at(x[i], lognormal_place(&log_x, x[i], g), g) : 0;
     }
     return 0;
 }
@@ -438,7 +441,7 @@ static const buffon_density_ops lognormal_ops = {.sample = lognormal_sample,
 buffon_density buffon_lognormal(double mu, double sigma)
 {
     buffon_density g = {.uniforms = 1, .dim = 1, .ops = &lognormal_ops};
-    if (sigma >= 0x1p-60 && buffon_priv_abs(mu) + 9 * sigma <= 650) {
+    if (sigma >= 0x1p-500 && buffon_priv_abs(mu) + 9 * sigma <= 700) {
         g.param[0] = mu;
         g.param[1] = sigma;
     } else {

@@ -70,16 +70,21 @@ static inline pair pair_log(pair x)
     return pair_log_core(m, k);
 }
 
-/* scale exp(hi + lo), where the exponential alone may leave the doubles: its power of two comes
+/* scale 2^up exp(hi + lo), where the exponential alone may leave the doubles: its power of two comes
  * last. */
-static inline double pair_exp(pair x, double scale)
+static inline double pair_exp_up(pair x, double scale, int up)
 {
     const double most = 4000, z = x.hi * 0x1.71547652b82fep+0;
     const int k = (int)(z < -most ? -most : z > most ? most : z);
     const pair y = pair_sum(x.hi, k * -0x1.62e42feep-1);
     const pair r = pair_sum(y.hi, y.lo + (x.lo - k * 0x1.a39ef35793c76p-33));
     const double e = buffon_priv_exp(r.hi);
-    return buffon_priv_ldexp(scale * (buffon_priv_isfinite(e) ? e + e * r.lo : e), k);
+    return buffon_priv_ldexp(scale * (buffon_priv_isfinite(e) ? e + e * r.lo : e), k + up);
+}
+
+static inline double pair_exp(pair x, double scale)
+{
+    return pair_exp_up(x, scale, 0);
 }
 
 #endif

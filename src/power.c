@@ -38,6 +38,13 @@ static double power_slope(double n, double w, double x)
     return n * (w * up) / x / up;
 }
 
+/* n exp(log_w) / x for n up to 2^53, where 1 / x may not be a double. */
+static double power_density(double n, pair log_w, double x)
+{
+    const int up = x < DBL_MIN ? 104 : 0;
+    return pair_exp_up(log_w, n / buffon_priv_ldexp(x, up), up);
+}
+
 /* ---- x^p ---------------------------------------------------------------------------------- */
 
 /* With a = p + 1 and w = (x / ref)^a, where ref is the end at which w is 1: hi for a > 0, else lo.
@@ -85,21 +92,6 @@ static double power_place(double *w, double u, const double *p)
     return pair_exp(pair_over(pair_log(only), a), p[POWER_REF]);
 }
 
-static int power_sample(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
-{
-    const double *p = g->param;
-    const double least = p[POWER_LO] > 0 ? p[POWER_LO] : POWER_LEAST;
-    const double most = p[POWER_HI] < DBL_MAX ? p[POWER_HI] : DBL_MAX;
-    for (size_t i = 0; i < n; i++) {
-        double w;
-        const double y = power_place(&w, u[i], p);
-        x[i] = y < least ? least : y > most ? most : y;
-        if (pdf)
-            pdf[i] = power_slope(p[POWER_N], w, x[i]);
-    }
-    return 0;
-}
-
 /* log(x / ref) a, where x is in the support. */
 static pair power_exponent(double x, const double *p)
 {
@@ -113,11 +105,32 @@ static int power_holds(double x, const double *p)
     return x >= p[POWER_LO] && x <= p[POWER_HI] && x > 0 && x <= DBL_MAX;
 }
 
+static double power_at(double x, const double *p)
+{
+    return power_holds(x, p) ? power_density(p[POWER_N], power_exponent(x, p), x) : 0;
+}
+
+/* Where digits of x are lost, g is that at x. */
+static int power_sample(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
+{
+    const double *p = g->param;
+    const double least = p[POWER_LO] > 0 ? p[POWER_LO] : POWER_LEAST;
+    const double most = p[POWER_HI] < DBL_MAX ? p[POWER_HI] : DBL_MAX;
+    for (size_t i = 0; i < n; i++) {
+        double w;
+        const double y = power_place(&w, u[i], p);
+        x[i] = y < least ? least : y > most ? most : y;
+        if (pdf)
+            pdf[i] = x[i] < DBL_MIN ? power_at(x[i], p) : power_slope(p[POWER_N], w, x[i]);
+    }
+    return 0;
+}
+
 static int power_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
     const double *p = g->param;
     for (size_t i = 0; i < n; i++)
-        pdf[i] = power_holds(x[i], p) ? pair_exp(power_exponent(x[i], p), p[POWER_N] / x[i]) : 0;
+        pdf[i] = power_at(x[i], p);
     return 0;
 }
 
@@ -221,21 +234,6 @@ static pair weibull_energy(double u)
     return u < 0x1p-60 ? small : energy;
 }
 
-static int weibull_sample(double *x, double *pdf, const double *u, size_t n,
-                          const buffon_density *g)
-{
-    const double shape = g->param[0], scale = g->param[1];
-    const pair k = {shape, 0};
-    for (size_t i = 0; i < n; i++) {
-        const pair e = weibull_energy(u[i]);
-        const double y = pair_exp(pair_over(pair_log(e), k), scale);
-        x[i] = y < POWER_LEAST ? POWER_LEAST : y > DBL_MAX ? DBL_MAX : y;
-        if (pdf)
-            pdf[i] = power_slope(shape * (1 - u[i]), e.hi, x[i]);
-    }
-    return 0;
-}
-
 static pair weibull_log_energy(double x, const buffon_density *g)
 {
     return pair_times(pair_log_ratio(x, g->param[1]), g->param[0]);
@@ -249,16 +247,35 @@ static double weibull_fall(double slope, double e)
 }
 
 /* (E shape / x) exp(-E). */
+static double weibull_at(double x, const buffon_density *g)
+{
+    if (!(x > 0 && x <= DBL_MAX))
+        return 0;
+    const pair log_e = weibull_log_energy(x, g);
+    const double e = pair_exp(log_e, 1);
+    return e < 1500 ? weibull_fall(power_density(g->param[0], log_e, x), e) : 0;
+}
+
+static int weibull_sample(double *x, double *pdf, const double *u, size_t n,
+                          const buffon_density *g)
+{
+    const double shape = g->param[0], scale = g->param[1];
+    const pair k = {shape, 0};
+    for (size_t i = 0; i < n; i++) {
+        const pair e = weibull_energy(u[i]);
+        const double y = pair_exp(pair_over(pair_log(e), k), scale);
+        x[i] = y < POWER_LEAST ? POWER_LEAST : y > DBL_MAX ? DBL_MAX : y;
+        if (pdf)
+            pdf[i] =
+                x[i] < DBL_MIN ? weibull_at(x[i], g) : power_slope(shape * (1 - u[i]), e.hi, x[i]);
+    }
+    return 0;
+}
+
 static int weibull_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    for (size_t i = 0; i < n; i++) {
-        pdf[i] = 0;
-        if (x[i] > 0 && x[i] <= DBL_MAX) {
-            const pair log_e = weibull_log_energy(x[i], g);
-            const double e = pair_exp(log_e, 1), slope = pair_exp(log_e, g->param[0] / x[i]);
-            pdf[i] = e < 1500 ? weibull_fall(slope, e) : 0;
-        }
-    }
+    for (size_t i = 0; i < n; i++)
+        pdf[i] = weibull_at(x[i], g);
     return 0;
 }
 

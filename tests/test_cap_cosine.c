@@ -386,6 +386,22 @@ static void test_spheres(void)
            "the irradiance of a sphere below is 0, of one around NaN");
 }
 
+/* However small, u2 leaves a point above the horizon. */
+static void test_least(void)
+{
+    static const double half[] = {1e-8, 0.01, 0.8, 1.5707963267948966}, z[3] = {0, 0, 1};
+    int good = 1;
+    for (int k = 0; k < 36; k++) {
+        const double t = half[k / 9], up = t * (k % 9 / 4.5 - 0.9), n[3] = {cos(up), 0, sin(up)};
+        const buffon_density g = buffon_cap_cosine(t, z, n);
+        const double u[] = {0x1p-53, 0.3, 1 - 0x1p-53, 0x1p-1074, 0x1p-1074, 1e-300};
+        double x[9], pdf[3];
+        good &= buffon_density_sample(x, pdf, u, 3, &g) == BUFFON_OK;
+        good &= pdf[0] > 0 && pdf[1] > 0 && pdf[2] > 0;
+    }
+    tap_ok(good, "the smallest uniforms make points with a density");
+}
+
 static void test_refusals(void)
 {
     const double up[3] = {0, 0, 1}, zero[3] = {0}, inf[3] = {1, INFINITY, 0}, down[3] = {0, 0, -1};
@@ -416,6 +432,7 @@ int main(void)
         test_level();
     }
     test_known();
+    test_least();
     test_refusals();
     return tap_done();
 }

@@ -111,7 +111,7 @@ static void see_pdf(double *worst, double *log_worst, const buffon_density *g, d
 
 static void test_poisson_pdf(void)
 {
-    static const double mean[] = {1e-10, 0.3, 4, 19.5, 150, 1e4, 1e9, 1e15};
+    static const double mean[] = {0x1p-1074, 1e-300, 1e-10, 0.3, 4, 19.5, 150, 1e4, 1e9, 1e15};
     double worst = 0, log_worst = 0;
     for (size_t j = 0; j < sizeof mean / sizeof *mean; j++) {
         const buffon_density g = buffon_poisson(mean[j]);
@@ -130,10 +130,10 @@ static void test_poisson_pdf(void)
 static void test_binomial_pdf(void)
 {
     static const double n[] = {1, 7, 60, 1000, 0x1p20, 0x1p50};
-    static const double p[] = {1e-12, 0x1p-8, 0.3, 0.5, 0.75, 1 - 0x1p-30};
+    static const double p[] = {0x1p-1074, 1e-12, 0x1p-8, 0.3, 0.5, 0.75, 1 - 0x1p-30};
     double worst = 0, log_worst = 0;
-    for (size_t j = 0; j < 36; j++) {
-        const double tries = n[j / 6], q = p[j % 6], sd = sqrt(tries * q * (1 - q));
+    for (size_t j = 0; j < 42; j++) {
+        const double tries = n[j / 7], q = p[j % 7], sd = sqrt(tries * q * (1 - q));
         const buffon_density g = buffon_binomial((uint64_t)tries, q);
         for (int i = 0; i < 80; i++) {
             const double at = floor(tries * q + (i / 4.0 - 5) * sd);

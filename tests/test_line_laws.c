@@ -579,6 +579,25 @@ static void see_between(errors *w, double mean, double sd, double lo, double hi,
             64 + 4 * (double)(size + fabsl(a)) * (mean != 0 ? 8 : 2), at);
 }
 
+/* Next to a mean that is not in the middle: by the share below it, which is not to be had exactly. */
+static void test_near_mean(void)
+{
+    static const double lo[] = {-0.1, -1, -3, -5, -8}, hi[] = {0.3, 3, 9, 6, 10};
+    double worst = 0;
+    for (int k = 0; k < 5; k++) {
+        const buffon_density g = buffon_normal_truncated(0, 1, lo[k], hi[k]);
+        const wide a = lo[k], all = bell_mass(a, 0, (wide)hi[k] - a);
+        const double mean = (double)(bell_mass(a, 0, -a) / all);
+        for (int i = 0; i < 60; i++) {
+            const double u = mean + (i % 2 ? 1 : -1) * ldexp(1, -4 - i);
+            const wide d = (wide)draw(&g, u).x - lo[k];
+            const wide off = (bell_mass(a, 0, d) - u * all) / expl(-d * (a + d / 2));
+            worst = fmax(worst, fabs((double)off));
+        }
+    }
+    tap_ok(worst <= 0x1p-51, "normal between bounds: next to the mean within %.2g sd", worst);
+}
+
 static void test_between(void)
 {
     errors w = {0};
@@ -779,6 +798,33 @@ static void test_special_points(void)
     tap_ok(special(buffon_weibull(2, 1), below, 5, 1, 2 * exp(-1)), "weibull: known inside");
 }
 
+/* Whether g is finite, and that of the point, at points of the smallest uniforms. */
+static int least_points(buffon_density g)
+{
+    static const double u[] = {0x1p-1074, 1e-300, 1e-200};
+    int good = g.status == BUFFON_OK;
+    for (int i = 0; i < 3; i++) {
+        const answer at = draw(&g, u[i]);
+        good &= at.x > 0 && at.pdf <= DBL_MAX && (at.x >= DBL_MIN || at.pdf == pdf_at(&g, at.x));
+    }
+    return good;
+}
+
+static void test_least_points(void)
+{
+    const buffon_density uniform = buffon_power(0, 0, 1), steep = buffon_power(-0.5, 0, 1);
+    const buffon_density exponential = buffon_weibull(1, 1), rayleigh = buffon_weibull(2, 0x1p-500);
+    const double x = 0x1p-1074;
+    tap_ok(pdf_at(&uniform, x) == 1 && pdf_at(&exponential, x) == 1 &&
+               fabs(pdf_at(&steep, x) / 0x1p536 - 1) < 1e-15 &&
+               fabs(pdf_at(&rayleigh, x) / 0x1p-73 - 1) < 1e-15,
+           "powers and weibull: g where the inverse of x is no double");
+    tap_ok(least_points(uniform) && least_points(steep) && least_points(exponential) &&
+               least_points(buffon_weibull(0.5, 1)) && least_points(buffon_power(1, 0, 1e-200)) &&
+               least_points(buffon_lognormal(0, 77)) && least_points(buffon_lognormal(-690, 1)),
+           "points of the smallest uniforms, and g at them");
+}
+
 static void test_known_points(void)
 {
     const buffon_density cube = buffon_power(2, 0, 1), log_uniform = buffon_power(-1, 1, 16);
@@ -829,6 +875,7 @@ int main(void)
         test_weibull();
         test_exponential();
         test_between();
+        test_near_mean();
         test_lognormal();
     } else {
         tap_ok(1, "formulas # SKIP long double is no wider than double");
@@ -836,6 +883,7 @@ int main(void)
     test_refused();
     test_special_points();
     test_known_points();
+    test_least_points();
     test_order();
     return tap_done();
 }

@@ -237,6 +237,8 @@ static void test_gamma_ends(void)
     tap_ok(one_pdf(&g, 0) == 0 && one_pdf(&g, -1) == 0 && one_pdf(&g, INFINITY) == 0 &&
                one_log_pdf(&g, -1) == -INFINITY && one_log_pdf(&g, NAN) == -INFINITY,
            "gamma: no density outside");
+    tap_ok(relative(one_pdf(&h, 0x1p-1074), 2.0240225330731062e+223) < 1e-14,
+           "gamma: a density next to 0 whose inverse of x is none");
     const buffon_density chi = buffon_chi_square(3), as = buffon_gamma(1.5, 2);
     tap_ok(one_x(&chi, 0.3) == one_x(&as, 0.3), "chi-square is the gamma law");
     const buffon_density unit = buffon_gamma(1, 1);
@@ -250,7 +252,8 @@ static void test_gamma_ends(void)
 
 static wide wide_log_beta_pdf(wide a, wide b, wide x)
 {
-    const wide n = a + b, y = 1 - x, excess = x * b - y * a, d = excess / a, e = -excess / b;
+    const wide n = a + b, y = 1 - x, excess = a == b ? a * (x - y) : x * b - y * a;
+    const wide d = excess / a, e = -excess / b;
     const wide peak = 0.5L * (logl(a) + logl(b) - logl(n) - WIDE_LOG_2PI) + wide_stirling(n) -
                       wide_stirling(a) - wide_stirling(b);
     const wide left = d < -0.5L ? d - logl(x * n / a) : wide_deviance(d);
@@ -277,6 +280,47 @@ static void test_beta_pdf(void)
     }
     tap_ok(worst <= 2e-15 && log_worst <= 2e-15, "beta pdf and its log: %.2g and %.2g of 1 + |log|",
            worst, log_worst);
+}
+
+/* Where g x is near 1 in a wide law, two logarithms of size 20 cancel. At half the mode of a large
+ * shape two of size a do. */
+static void test_large_pdf(void)
+{
+    double gamma = 0, beta = 0, half = 0;
+    for (double a = 1e5; a <= 1e15; a *= 10) {
+        const buffon_density g = buffon_gamma(a, 1), h = buffon_beta(a, a);
+        for (int i = 0; i < 40; i++) {
+            const double sign = i % 2 ? 1 : -1, r = sqrt(log(a / 6.28) * (0.9 + i / 200.0) / a);
+            const double x = a * (1 + sign * r), y = 0.5 * (1 + sign * sqrt(0.5) * r);
+            const wide of_x = wide_log_gamma_pdf(a, x), of_y = wide_log_beta_pdf(a, a, y);
+            const double at_x = 1 + fabs((double)(of_x + logl(x)));
+            const double at_y = 1 + fabs((double)(of_y + logl(y) + log1pl(-y)));
+            gamma = fmax(gamma, fabs((double)(one_pdf(&g, x) / expl(of_x) - 1)) / at_x);
+            beta = fmax(beta, fabs((double)(one_pdf(&h, y) / expl(of_y) - 1)) / at_y);
+        }
+        const wide of_half = wide_log_gamma_pdf(a, 0.49 * a);
+        half = fmax(half, fabs((double)(one_log_pdf(&g, 0.49 * a) / of_half - 1)));
+    }
+    tap_ok(gamma <= 1e-14 && beta <= 2e-14, "large shapes: gamma %.2g, beta %.2g", gamma, beta);
+    tap_ok(half <= 2e-15, "log of the gamma pdf at half the mode: %.2g", half);
+}
+
+/* Near 0 the CDF is a power of x but for a part x of it. */
+static void test_small_shapes(void)
+{
+    double gamma = 0, beta = 0;
+    for (int i = 0; i < 400; i++) {
+        const double a = 1e-3 * (1 + i % 20), u = 0.5 + i / 2000.0;
+        const buffon_density g = buffon_gamma(a, 1), h = buffon_beta(a, 2);
+        const wide x = expl((logl(u) + wide_lgamma1p(a)) / a),
+                   y = expl(logl(u / (1 + (wide)a)) / a);
+        if (x > 0x1p-1000L && x < 1e-17L)
+            gamma = fmax(gamma, relative(one_x(&g, u), (double)x));
+        if (y > 0x1p-1000L && y < 1e-17L)
+            beta = fmax(beta, relative(one_x(&h, u), (double)y));
+    }
+    tap_ok(gamma <= 5e-13 && beta <= 1e-12, "quantiles of small shapes: gamma %.2g, beta %.2g",
+           gamma, beta);
 }
 
 static void test_beta_ends(void)
@@ -413,6 +457,8 @@ int main(void)
         test_parts();
         test_gamma_pdf();
         test_beta_pdf();
+        test_large_pdf();
+        test_small_shapes();
         test_student_pdf();
         test_student_known();
     }

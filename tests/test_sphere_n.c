@@ -154,7 +154,7 @@ static void test_areas(void)
             const wide z = 0.5L * (wide)dim;
             const wide front = solid ? lgammal(z + 1) : lgammal(z) - logl(2);
             const wide exact = front - z * logl(WIDE_PI);
-            double got, logarithm;
+            double got = NAN, logarithm = NAN;
             if (!solid && dim == 1)
                 continue;
             const buffon_density g = make(dim, solid);

@@ -18,8 +18,9 @@ BUFFON_BEGIN
  *           likewise
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE
- *  Exact:   x within 2e-13 of itself, for u from 1e-300; g at a given x within
- *           2e-15 (1 + |log(g x (1 - x))|) of itself (tests/test_special.c)
+ *  Exact:   x within 2e-13 of itself, for u from 1e-300, where a or b is below 0.03 within 1e-12; g
+ *           at a given x within 2e-15 (1 + |log(g x (1 - x))|) of itself, where a or b is above
+ *           1e4 within 2e-14 of that (tests/test_special.c)
  *  Cost:    0.2 us a point for large parameters, 0.5 to 1 us for small ones, and 3 us a batch
  *  Source:  N. Temme (1982), The uniform asymptotic expansion of a class of integrals; C. Loader
  *           (2000), Fast and accurate computation of binomial probabilities; A. DiDonato, A. Morris

@@ -21,8 +21,9 @@ BUFFON_BEGIN
  *           below 2^-1022 are put there, so that g stays finite
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE
- *  Exact:   x within 5e-14 of itself, for shapes from 1e-10 to 1e15 and u from 1e-300; g at a given
- *           x within 4e-15 (1 + |log(g x)|) of itself (tests/test_special.c)
+ *  Exact:   x within 5e-14 of itself, for shapes from 0.03 to 1e15 and u from 1e-300, for smaller
+ *           shapes within 5e-13; g at a given x within 4e-15 (1 + |log(g x)|) of itself, for
+ *           shapes above 1e8 within 1e-14 of that (tests/test_special.c)
  *  Cost:    0.1 us a point for large shapes, 0.5 us for small ones, and 2 us a batch
  *  Source:  N. Temme (1982), The uniform asymptotic expansion of a class of integrals; A. DiDonato,
  *           A. Morris (1986), Computation of the incomplete gamma function ratios and their inverse

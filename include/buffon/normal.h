@@ -42,7 +42,8 @@ BUFFON_API buffon_density buffon_normal(double mean, double sd);
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE (mean, sd) or BUFFON_E_DOMAIN
  *  Exact:   the distance from the nearest of lo, hi and mean within 2^-48 of it, for
- *           u from 1e-300 up, and what x and the bounds' distances from the mean round; g at x
+ *           u from 1e-300 up, and what x and the bounds' distances from the mean round; but from a
+ *           mean that is not the middle of the bounds within 2^-51 sd, if that is more. g at x
  *           within 16 + 4 e ulp, where e is the exponent of the density against its peak
  *           (tests/test_line_laws.c)
  *  Cost:    5 to 60 times that of buffon_normal

@@ -15,7 +15,7 @@ BUFFON_BEGIN
 
 /** The uniform density on the unit sphere |x| = 1 of `dim` dimensions.
  *
- *  In:      dim  from 2, the circle, to 2^31
+ *  In:      dim  from 2, the circle, to 2^31 - 1
  *  Law:     coordinates come in pairs, each of a random direction in its plane: of what is left of
  *           |x|^2 = 1 when r coordinates are left, a pair takes the share
  *           1 - (1 - u)^(2 / (r - 2)), u the first uniform of two; its direction is 2 pi times the
@@ -34,7 +34,7 @@ BUFFON_API buffon_density buffon_sphere_n(size_t dim);
 
 /** The uniform density on the unit ball |x| <= 1 of `dim` dimensions.
  *
- *  In:      dim  from 1, the segment from -1 to 1, to 2^31
+ *  In:      dim  from 1, the segment from -1 to 1, to 2^31 - 1
  *  Law:     the first dim coordinates of the sphere of dim + 2 dimensions. g =
  *           Gamma(dim / 2 + 1) / pi^(dim / 2), 0 outside; the edge has 2^-50 dim to spare for
  *           rounding; from 432 dimensions on g is infinite, its logarithm holds

@@ -18,8 +18,9 @@ BUFFON_BEGIN
  *           less than 2^-53 of the law from dof = 0.06 on
  *  Draws:   1
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE
- *  Exact:   x within 1e-13 of itself, for u from 1e-300; g at a given x within 1e-15 (1 + |log g|)
- *           of itself. Points of u and 1 - u are exact mirrors (tests/test_special.c)
+ *  Exact:   x within 1e-13 of itself, for u from 1e-300, for dof below 0.03 within 1e-12; g at a
+ *           given x within 1e-15 (1 + |log g|) of itself. Points of u and 1 - u are exact mirrors
+ *           (tests/test_special.c)
  *  Cost:    0.2 us a point from 20 degrees of freedom on, 0.6 us below, 0.01 us for 1 and 2
  *  Source:  as buffon_beta: x^2 / (dof + x^2) is a beta variable
  *  Since:   0.1
