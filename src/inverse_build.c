@@ -435,29 +435,27 @@ static int build_centre(build_walk *w, build_place from, build_place to)
 
 /* ---- the table ---- */
 
-/* Eight bins to a cell: few have more than one split. */
+/* Four bins to a cell at least: few uniforms are in one with more than one split. */
 static int build_guide(build_walk *w)
 {
     buffon_inverse_table *table = w->table;
     const inverse_row *cells = inverse_cells(table);
-    uint64_t *guide = inverse_guide(table);
+    double *guide = inverse_guide(table);
     table->bins = 16;
-    while (table->bins < 8 * table->cells)
+    while (table->bins < 4 * table->cells)
         table->bins *= 2;
-    double *split = (double *)(void *)(guide + table->bins);
-    if ((const char *)(split + table->bins) > (const char *)w->last)
+    if ((const char *)(guide + 2 * table->bins) > (const char *)w->last)
         return buffon_priv_inverse_refuse(w->b, BUFFON_E_NOMEM, "the memory is too small",
                                           (double)NAN);
     const uint64_t last = table->cells - 1;
     for (uint64_t bin = 0, k = 0; bin < table->bins; bin++) {
-        const double next = (double)(bin + 1) / (double)table->bins;
         while (k < last && cells[k].to <= (double)bin / (double)table->bins)
             k++;
-        const int many = k < last && cells[k].to < next && cells[k + 1].to < next && k + 1 < last;
-        guide[bin] = 2 * k + (uint64_t)many;
-        split[bin] = k < last ? cells[k].to : 2;
+        const uint64_t place = 8 * k;
+        memcpy(&guide[2 * bin], &place, sizeof place);
+        guide[2 * bin + 1] = k < last ? cells[k].to : 2;
     }
-    table->bytes = (uint64_t)((const char *)(split + table->bins) - (const char *)table);
+    table->bytes = (uint64_t)((const char *)(guide + 2 * table->bins) - (const char *)table);
     w->b->report->bytes = (size_t)table->bytes;
     w->b->report->cells = (size_t)(table->tail[0] + table->cells + table->tail[1]);
     return 0;

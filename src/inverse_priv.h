@@ -15,9 +15,9 @@ typedef struct inverse_row {
     double from, to, c[6];
 } inverse_row;
 
-/* Followed by the rows of the lower tail, the centre and the upper tail, and by the guide: for each
- * of `bins` equal parts of (0, 1) twice the cell of the centre that its lower end lies in, plus 1
- * where more than two cells reach into it; then for each where that cell ends. */
+/* Followed by the rows of the lower tail, the centre and the upper tail, and by the guide, two
+ * numbers for each of `bins` equal parts of (0, 1): the bits of the first are 8 k, where the cell k
+ * of the centre is the one that the bin's lower end lies in, the second is where that cell ends. */
 struct buffon_inverse_table {
     uint64_t magic, bytes;
     uint64_t tail[2], cells, bins; /* numbers of rows: lower and upper tail, centre */
@@ -26,7 +26,7 @@ struct buffon_inverse_table {
     double least, most;            /* of all x */
 };
 
-#define INVERSE_MAGIC UINT64_C(0x31766e6966667562) /* "buffinv1" on little-endian machines */
+#define INVERSE_MAGIC UINT64_C(0x32766e6966667562) /* "buffinv2" on little-endian machines */
 
 static inline inverse_row *inverse_rows(const buffon_inverse_table *table)
 {
@@ -43,9 +43,9 @@ static inline inverse_row *inverse_tail_rows(const buffon_inverse_table *table, 
     return inverse_rows(table) + (upper ? table->tail[0] + table->cells : 0);
 }
 
-static inline uint64_t *inverse_guide(const buffon_inverse_table *table)
+static inline double *inverse_guide(const buffon_inverse_table *table)
 {
-    return (uint64_t *)(inverse_rows(table) + table->tail[0] + table->cells + table->tail[1]);
+    return (double *)(inverse_rows(table) + table->tail[0] + table->cells + table->tail[1]);
 }
 
 /* v at d of a row, and its derivative. */
@@ -59,10 +59,6 @@ static inline double inverse_value(double *slope, const inverse_row *row, double
 /* x and the pdf where p is below (or above) x, in the tail. */
 double buffon_priv_inverse_tail(double *pdf, double p, int upper,
                                 const buffon_inverse_table *table);
-
-/* The same for those of u[n] that lie in a tail; others are left alone. */
-void buffon_priv_inverse_tails(double *x, double *pdf, const double *u, size_t n,
-                               const buffon_inverse_table *table);
 
 /* ---- panels: the integral of the pdf ---- */
 

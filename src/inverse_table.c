@@ -7,6 +7,30 @@
 #include "density_priv.h"
 #include "inverse_priv.h"
 
+#define INVERSE_TILE 512
+
+/* Does those of u[n] that lie in a tail, or beyond the row that is at at[n]. */
+static void inverse_mend(double *x, double *pdf, const double *u, const uint64_t *at, size_t n,
+                         const buffon_inverse_table *table)
+{
+    for (size_t i = 0; i < n; i++) {
+        double *const density = pdf != NULL ? &pdf[i] : NULL;
+        const inverse_row *row = inverse_cells(table) + at[i] / 8;
+        if (u[i] < table->u_lo) {
+            x[i] = buffon_priv_inverse_tail(density, u[i], 0, table);
+        } else if (u[i] >= table->u_hi) {
+            x[i] = buffon_priv_inverse_tail(density, 1 - u[i], 1, table);
+        } else if (u[i] >= row->to) {
+            double slope;
+            while (u[i] >= row->to)
+                row++;
+            x[i] = inverse_value(&slope, row, u[i] - row->from);
+            if (pdf != NULL)
+                pdf[i] = 1 / slope;
+        }
+    }
+}
+
 #define KERNELS "inverse_table_lanes.h"
 #include "levels.h"
 
@@ -45,17 +69,6 @@ double buffon_priv_inverse_tail(double *pdf, double p, int upper, const buffon_i
         *pdf = g < DBL_MIN ? DBL_MIN : g > DBL_MAX ? DBL_MAX : g;
     }
     return x < table->least ? table->least : x > table->most ? table->most : x;
-}
-
-void buffon_priv_inverse_tails(double *x, double *pdf, const double *u, size_t n,
-                               const buffon_inverse_table *table)
-{
-    for (size_t i = 0; i < n; i++) {
-        if (u[i] < table->u_lo)
-            x[i] = buffon_priv_inverse_tail(pdf ? &pdf[i] : NULL, u[i], 0, table);
-        else if (u[i] >= table->u_hi)
-            x[i] = buffon_priv_inverse_tail(pdf ? &pdf[i] : NULL, 1 - u[i], 1, table);
-    }
 }
 
 /* p and the pdf at an x of a tail; both 0 beyond the support. */

@@ -1,67 +1,72 @@
 /* Private. The kernel of inverse_table.c: included by levels.h. */
 
-#if LANES_WIDTH == 2
-
-/* Two lanes that are loaded one by one gain nothing. */
-static void LANES(inverse_map_points)(double *x, double *pdf, const double *u, size_t n,
-                                      const buffon_inverse_table *table, unsigned bits)
+/* The rows of u[m], as places among the numbers of the cells. */
+static inline void LANES(inverse_find)(uint64_t *at, const double *u, size_t m,
+                                       const buffon_inverse_table *table, unsigned bits)
 {
-    inverse_map_points_scalar(x, pdf, u, n, table, bits);
-}
-
-#else
-
-/* The cells of p in the centre, as places of their rows of 8 numbers. A bin names the cell of its
- * lower end and where that ends. Most have one such split at most; where more are, the cells are
- * walked over. */
-LANES_INLINE lanes_u LANES(inverse_cell)(lanes_d p, const buffon_inverse_table *table,
-                                         unsigned bits)
-{
-    const double *cells = (const double *)inverse_cells(table);
-    const uint64_t *guide = inverse_guide(table);
-    const double *split = (const double *)(const void *)(guide + table->bins);
+    const double *guide = inverse_guide(table);
     /* The top bits of the fraction of 1 + u. Rounding may carry into the next bin, whose first cell
      * then is at most 2^-53 away. */
-    const lanes_u bin = lanes_bits(p + 1.0) << 12 >> (64 - bits);
-    const lanes_u word = lanes_gather_words(guide, bin);
-    const lanes_u first = word >> 1 << 3;
-    const lanes_m past = lanes_less_equal(lanes_gather(split, bin), p);
-    lanes_u at = lanes_bits(lanes_pick(past, lanes_double(first + 8), lanes_double(first)));
-    if (lanes_any(lanes_odd(word))) {
-        for (;;) {
-            const lanes_m more = lanes_less_equal(lanes_gather(cells + 1, at), p);
-            if (!lanes_any(more))
-                break;
-            at = lanes_bits(lanes_pick(more, lanes_double(at + 8), lanes_double(at)));
-        }
+    for (size_t i = 0; i < m; i += LANES_WIDTH) {
+        const lanes_d p = lanes_load(u + i, m - i);
+        const lanes_u bin = lanes_bits(p + 1.0) << 12 >> (64 - bits) << 1;
+        memcpy(at + i, &bin, sizeof bin);
     }
-    return at;
+    for (size_t i = 0; i < m; i += LANES_WIDTH) {
+        lanes_d first, split;
+        lanes_pairs(&first, &split, guide, at + i);
+        const lanes_d next = lanes_double(lanes_bits(first) + 8);
+        const lanes_m past = lanes_less_equal(split, lanes_load(u + i, m - i));
+        const lanes_d row = lanes_pick(past, next, first);
+        memcpy(at + i, &row, sizeof row);
+    }
 }
 
-/* Points and, unless it is NULL, the pdf. Uniforms of the tails are few and go one by one. */
-static void LANES(inverse_map_points)(double *x, double *pdf, const double *u, size_t n,
-                                      const buffon_inverse_table *table, unsigned bits)
+/* Points and the pdf by these rows. Lists the vectors with uniforms that are beyond their row, and
+ * says how many there are. */
+static inline size_t LANES(inverse_evaluate)(double *x, double *pdf, size_t *rest, const double *u,
+                                             const uint64_t *at, size_t m, const double *cells)
 {
-    const double *cells = (const double *)inverse_cells(table);
-    const double most = buffon_priv_nextdown(table->u_hi);
-    for (size_t i = 0; i < n; i += LANES_WIDTH) {
-        const lanes_d raw = lanes_load(u + i, n - i);
-        const lanes_d p = lanes_min(lanes_max(raw, lanes_all(table->u_lo)), lanes_all(most));
-        const lanes_u at = LANES(inverse_cell)(p, table, bits);
-        const lanes_d d = lanes_max(p - lanes_gather(cells, at), lanes_all(0));
-        const lanes_d c5 = lanes_gather(cells + 7, at), c4 = lanes_gather(cells + 6, at);
-        const lanes_d c3 = lanes_gather(cells + 5, at), c2 = lanes_gather(cells + 4, at);
-        const lanes_d c1 = lanes_gather(cells + 3, at), c0 = lanes_gather(cells + 2, at);
-        lanes_store(x + i, c0 + d * (c1 + d * (c2 + d * (c3 + d * (c4 + d * c5)))), n - i);
+    size_t count = 0;
+    for (size_t i = 0; i < m; i += LANES_WIDTH) {
+        lanes_d from, to, c0, c1, c2, c3, c4, c5;
+        lanes_pairs(&from, &to, cells, at + i);
+        lanes_pairs(&c0, &c1, cells + 2, at + i);
+        lanes_pairs(&c2, &c3, cells + 4, at + i);
+        lanes_pairs(&c4, &c5, cells + 6, at + i);
+        const lanes_d p = lanes_load(u + i, m - i);
+        const lanes_d d = lanes_max(p - from, lanes_all(0));
+        lanes_store(x + i, c0 + d * (c1 + d * (c2 + d * (c3 + d * (c4 + d * c5)))), m - i);
         if (pdf != NULL) {
             const lanes_d slope =
                 c1 + d * (2.0 * c2 + d * (3.0 * c3 + d * (4.0 * c4 + d * (5.0 * c5))));
-            lanes_store(pdf + i, 1.0 / slope, n - i);
+            lanes_store(pdf + i, 1.0 / slope, m - i);
         }
-        if (!lanes_every(lanes_equal(p, raw)))
-            buffon_priv_inverse_tails(x + i, pdf != NULL ? pdf + i : NULL, u + i,
-                                      n - i < LANES_WIDTH ? n - i : LANES_WIDTH, table);
+        rest[count] = i;
+        count += (size_t)!lanes_every(lanes_and(lanes_less_equal(from, p), lanes_less(p, to)));
     }
+    return count;
 }
 
-#endif
+/* Points and, unless it is NULL, the pdf. Uniforms of the tails, and of bins with more than one
+ * split, are few and go one by one: their vectors are listed, as a branch on each would be guessed
+ * wrongly. */
+static void LANES(inverse_map_points)(double *x, double *pdf, const double *u, size_t n,
+                                      const buffon_inverse_table *table, unsigned bits)
+{
+    uint64_t at[INVERSE_TILE];
+    size_t rest[INVERSE_TILE];
+    for (size_t start = 0; start < n; start += INVERSE_TILE) {
+        const size_t m = n - start < INVERSE_TILE ? n - start : INVERSE_TILE;
+        LANES(inverse_find)(at, u, m, table, bits);
+        const size_t count =
+            LANES(inverse_evaluate)(x, pdf, rest, u, at, m, (const double *)inverse_cells(table));
+        for (size_t k = 0; k < count; k++) {
+            const size_t i = rest[k], left = m - i < LANES_WIDTH ? m - i : LANES_WIDTH;
+            inverse_mend(x + i, pdf != NULL ? pdf + i : NULL, u + i, at + i, left, table);
+        }
+        x += m;
+        u += m;
+        pdf = pdf != NULL ? pdf + m : NULL;
+    }
+}

@@ -7,7 +7,7 @@
  *     lanes_d, lanes_u, lanes_m       doubles, words, truth values
  *     lanes_all(x), lanes_words(w)    the same in all lanes
  *     lanes_load(p, m), lanes_store(p, v, m)   m lanes of memory; lanes from m on are the last one
- *     lanes_gather(p, k), lanes_gather_words(p, k)   p[k] of every lane
+ *     lanes_pairs(&a, &b, p, k)       p[k] and p[k + 1] of every lane; k[LANES_WIDTH] is in memory
  *     lanes_bits(v), lanes_double(w)  the bits of doubles, and back
  *     lanes_uniform(w)                the uniforms of random words: see rng.h
  *     lanes_less(a, b), lanes_less_equal(a, b), lanes_equal(a, b), lanes_odd(w)
@@ -29,8 +29,7 @@
 #define lanes_words LANES(lanes_words)
 #define lanes_load LANES(lanes_load)
 #define lanes_store LANES(lanes_store)
-#define lanes_gather LANES(lanes_gather)
-#define lanes_gather_words LANES(lanes_gather_words)
+#define lanes_pairs LANES(lanes_pairs)
 #define lanes_bits LANES(lanes_bits)
 #define lanes_double LANES(lanes_double)
 #define lanes_uniform LANES(lanes_uniform)
@@ -136,29 +135,37 @@ LANES_INLINE void lanes_store(double *p, lanes_d v, size_t m)
     }
 }
 
-LANES_INLINE lanes_d lanes_gather(const double *p, lanes_u k)
+/* Two numbers by one load, and a transposition: cheaper than two gathers, each of which is a load
+ * for every lane and more. */
+#if LANES_WIDTH >= 4
+LANES_INLINE __m256d LANES(lanes_two_pairs)(const double *p, const double *q)
 {
-#if LANES_WIDTH == 8
-    return (lanes_d)_mm512_i64gather_pd((__m512i)k, p, 8);
-#elif LANES_WIDTH == 4
-    return (lanes_d)_mm256_i64gather_pd(p, (__m256i)k, 8);
-#elif LANES_WIDTH == 2
-    return (lanes_d){p[k[0]], p[k[1]]};
-#else
-    return p[k];
-#endif
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(q), 1);
 }
+#endif
 
-LANES_INLINE lanes_u lanes_gather_words(const uint64_t *p, lanes_u k)
+LANES_INLINE void lanes_pairs(lanes_d *a, lanes_d *b, const double *p, const uint64_t *k)
 {
 #if LANES_WIDTH == 8
-    return (lanes_u)_mm512_i64gather_epi64((__m512i)k, p, 8);
+    const __m256d even = LANES(lanes_two_pairs)(p + k[0], p + k[2]);
+    const __m256d odd = LANES(lanes_two_pairs)(p + k[1], p + k[3]);
+    const __m256d more_even = LANES(lanes_two_pairs)(p + k[4], p + k[6]);
+    const __m256d more_odd = LANES(lanes_two_pairs)(p + k[5], p + k[7]);
+    const __m512d v = _mm512_insertf64x4(_mm512_castpd256_pd512(even), more_even, 1);
+    const __m512d w = _mm512_insertf64x4(_mm512_castpd256_pd512(odd), more_odd, 1);
+    *a = (lanes_d)_mm512_unpacklo_pd(v, w);
+    *b = (lanes_d)_mm512_unpackhi_pd(v, w);
 #elif LANES_WIDTH == 4
-    return (lanes_u)_mm256_i64gather_epi64((const long long *)p, (__m256i)k, 8);
+    const __m256d v = LANES(lanes_two_pairs)(p + k[0], p + k[2]);
+    const __m256d w = LANES(lanes_two_pairs)(p + k[1], p + k[3]);
+    *a = (lanes_d)_mm256_unpacklo_pd(v, w);
+    *b = (lanes_d)_mm256_unpackhi_pd(v, w);
 #elif LANES_WIDTH == 2
-    return (lanes_u){p[k[0]], p[k[1]]};
+    *a = (lanes_d){p[k[0]], p[k[1]]};
+    *b = (lanes_d){p[k[0] + 1], p[k[1] + 1]};
 #else
-    return p[k];
+    *a = p[*k];
+    *b = p[*k + 1];
 #endif
 }
 

@@ -17,7 +17,8 @@
  * the same, however coarse the table: f / g corrects it. The law's integral comes out on the way.
  *
  * A table holds no pointers: it may be copied, moved, saved and loaded on a machine of the same
- * byte order. It does not call the functions it was made from.
+ * byte order. It does not call the functions it was made from. A normal's takes 40 KiB, others of
+ * tests/laws40.h 2 to 70; 1000 cells would take 200.
  */
 #ifndef BUFFON_INVERSE_TABLE_H
 #define BUFFON_INVERSE_TABLE_H
