@@ -361,8 +361,8 @@ static double counts_point(const counts_table *table, double u)
     const int more = u > 0.5;
     const counts_target target = {
         .p = more ? 1 - u : u, .upper = more != table->law.mirrored, .more = more};
-    return table->size && target.p > 0x1p-60 ? counts_look(table, &target)
-                                             : counts_find(&table->law, &target);
+    return table->size && (!target.upper || target.p > 0x1p-60) ? counts_look(table, &target)
+                                                                : counts_find(&table->law, &target);
 }
 
 static double counts_pdf_of(counts_table *table, double k)

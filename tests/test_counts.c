@@ -313,6 +313,18 @@ static void test_ends(void)
            "no way back");
 }
 
+/* Small means: uniforms next to 0 give 0, at once. */
+static void test_least(void)
+{
+    static const double n[] = {100, 399, 1e5, 0x1p50}, u[] = {0x1p-1074, 1e-300, 1e-100, 1e-20};
+    int good = 1;
+    for (int k = 0; k < 16; k++) {
+        const buffon_density g = buffon_binomial((uint64_t)n[k / 4], 1e-15);
+        good &= one_x(&g, u[k % 4]) == 0;
+    }
+    tap_ok(good, "binomial: the smallest uniforms of small means");
+}
+
 static void test_refusals(void)
 {
     static const double bad[] = {-0x1p-1074, -1, 1.0000000000000002, INFINITY, -INFINITY, NAN};
@@ -345,6 +357,7 @@ int main(void)
     test_large();
     test_order();
     test_ends();
+    test_least();
     test_refusals();
     return tap_done();
 }
