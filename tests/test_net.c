@@ -187,7 +187,7 @@ static void test_samples(void)
         run.samples = asked[k];
         tap_ok(buffon_uniform(&e, &smooth_f, lo, hi, &run) == BUFFON_OK && e.samples == wanted[k],
                "%llu samples asked for: %llu", (unsigned long long)asked[k],
-               (unsigned long long)e.samples);
+               (unsigned long long)wanted[k]);
     }
     run.samples = (UINT64_C(1) << 40) + 1;
     tap_ok(buffon_uniform(&e, &smooth_f, lo, hi, &run) == BUFFON_E_SAMPLES &&
