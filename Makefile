@@ -228,7 +228,8 @@ fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets, FUZZ_SECONDS
 	   name=$$(basename $$file .c); mkdir -p $(BUILD)/fuzz/corpus_$$name; \
 	   $(BUILD)/tests/$$name $(BUILD)/fuzz/corpus_$$name > $(BUILD)/fuzz/$$name.tap || exit 1; \
 	   clang -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all \
-	     -DBUFFON_LIBFUZZER -DBUFFON_VERIFY -Iinclude -Isrc $(CPPFLAGS) $(flags) $$file $(sources) \
+	     -DBUFFON_LIBFUZZER -DBUFFON_NO_VECTORS -DBUFFON_VERIFY -Iinclude -Isrc $(CPPFLAGS) \
+	     $(flags) $$file $(sources) \
 	     -o $(BUILD)/fuzz/$$name $(libraries) && \
 	   $(BUILD)/fuzz/$$name -max_total_time=$(FUZZ_SECONDS) -max_len=65536 -verbosity=0 \
 	     -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus_$$name || exit 1; \
