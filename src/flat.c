@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include <buffon/math.h>
 
@@ -178,7 +179,7 @@ static void flat_walls_make(flat_walls *w, const buffon_density *g, flat_kind ki
         scaled[k] = e[k] * buffon_priv_ldexp(1, -exponent);
     for (size_t k = 0; k < 3; k++)
         flat_widen(edge[k], scaled + 3 * k);
-    w->count = 0;
+    memset(w, 0, sizeof *w);
     if (edges == 1)
         flat_walls_line(w, scaled);
     else if (edges == 2)

@@ -65,7 +65,8 @@ static void LANES(flat_map)(double *x, const double *u, size_t n, const double *
 static void LANES(flat_last)(double *w, const double *u, size_t n, size_t count, const double *tail)
 {
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
-        lanes_d v[3], part[3];
+        const lanes_d zero = lanes_all(0);
+        lanes_d v[3] = {zero, zero, zero}, part[3];
         for (size_t k = 0; k < count; k++)
             v[k] = lanes_load(u + k * n + i, n - i);
         if (count == 1) {

@@ -160,12 +160,13 @@ static const buffon_density_ops ball_n_ops = {.sample = sphere_n_draw,
  * nearest to 1/pi exceeds it by SPHERE_N_EXCESS of itself, each time. */
 static double sphere_n_inverse_area(size_t dim)
 {
+    const size_t pairs = dim / 2;
     double product = dim % 2 ? 0.5 : 0.5 * DENSITY_INV_PI;
     for (size_t d = dim % 2 ? 1 : 2; d < dim && buffon_priv_isfinite(product); d += 2)
         product *= 0.5 * DENSITY_INV_PI * (double)d;
     if (!buffon_priv_isfinite(product))
         return product;
-    return product - product * (SPHERE_N_EXCESS * (double)(dim / 2));
+    return product - product * (SPHERE_N_EXCESS * (double)pairs);
 }
 
 /* Its logarithm for large d by Stirling's series in z = d/2. */
