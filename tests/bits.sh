@@ -34,7 +34,6 @@ drop_in()
 # Compiling takes minutes here, so the levels of optimisation are left to one compiler.
 try gcc plain '-O2' '-DBUFFON_NO_THREADS -DBUFFON_NO_VECTORS'
 try gcc O0 '-O0'
-try gcc native '-O3 -march=native'
 for compiler in gcc clang; do
     if command -v $compiler > /dev/null; then
         tap_run "$compiler-drop-in: builds" drop_in $compiler "$build/$compiler-drop-in"
