@@ -12,6 +12,8 @@
 
 typedef long double wide;
 
+#define WIDE_PI 3.14159265358979323846264338327950288L
+
 #if defined(__GNUC__) || defined(__clang__)
 #define ULPS_UNUSED __attribute__((unused))
 #else
@@ -56,6 +58,14 @@ ULPS_UNUSED static void ulps_see(ulps_worst *w, double x, wide exact, double all
     ulps_see_error(w, (double)(fabsl(x - exact) / ulps_of(exact)), allowed, at);
 }
 
+/* In units of what is allowed, which is no number of ulp. */
+ULPS_UNUSED static void ulps_see_near(ulps_worst *w, double x, wide exact, wide allowed,
+                                      const double *at)
+{
+    const wide error = fabsl(x - exact);
+    ulps_see_error(w, error == 0 ? 0 : (double)(error / allowed), 1, at);
+}
+
 /* x = base + offset: an error of the offset, and the rounding of the sum. */
 ULPS_UNUSED static void ulps_see_sum(ulps_worst *w, double x, wide base, wide offset,
                                      double allowed, const double *at)
@@ -78,6 +88,16 @@ ULPS_UNUSED static void ulps_report(const ulps_worst *w, const char *what)
     if (!tap_ok(w->share <= 1, "%s", what))
         tap_note("at %.17g %.17g %.17g %.17g", w->at[0], w->at[1], w->at[2], w->at[3]);
     tap_note("worst %.3f of what is allowed, %.3f ulp", w->share, w->ulps);
+}
+
+/* sin and cos of 2 pi t: the reduction by quarters is exact. */
+ULPS_UNUSED static void ulps_circle(wide *c, wide *s, wide t)
+{
+    const wide quarters = floorl(4 * t + 0.5L), rest = t - 0.25L * quarters;
+    const wide sine = sinl(2 * WIDE_PI * rest), cosine = cosl(2 * WIDE_PI * rest);
+    const int k = (int)quarters & 3;
+    *c = k == 0 ? cosine : k == 1 ? -sine : k == 2 ? -cosine : sine;
+    *s = k == 0 ? sine : k == 1 ? cosine : k == 2 ? -sine : -cosine;
 }
 
 /* A uniform in (0, 1): of the generator, near its ends, or of any size down to 2^-1074. */
