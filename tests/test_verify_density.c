@@ -154,8 +154,9 @@ static int die_draw(double *x, double *pdf, const double *u, size_t n, const buf
 static int die_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
     for (size_t i = 0; i < n; i++)
-        pdf[i] =
-            x[i] >= 1 && x[i] < 7 && (x[i] == floor(x[i]) || g->param[2] != 0) ? g->param[1] : 0;
+        pdf[i] = (x[i] >= 1 && x[i] < 7 && (x[i] == floor(x[i]) || g->param[2] != 0)) || x[i] > 1e19
+                     ? g->param[1]
+                     : 0;
     return 0;
 }
 
@@ -192,6 +193,12 @@ static void passes(buffon_density g, const buffon_verification *how, buffon_stat
     if (!tap_ok(status == wanted && r.check == BUFFON_VERIFY_CHECKS && !failed && r.u[0] != r.u[0],
                 "passes: %s", what))
         tap_note("%s: %s", buffon_status_string(status), buffon_verify_string(r.check));
+}
+
+static void answers(buffon_status got, buffon_status wanted, const char *what)
+{
+    if (!tap_ok(got == wanted, "%s: %s", what, buffon_status_name(wanted)))
+        tap_note("got %s", buffon_status_name(got));
 }
 
 static void test_one_to_one(void)
@@ -240,6 +247,12 @@ static void test_discrete(void)
     finds(die_of(5.9, 1.0 / 6, 0), &whole, BUFFON_VERIFY_CELLS, "a loaded die");
     finds(die_of(6, 0.17, 0), &whole, BUFFON_VERIFY_TOTAL, "probabilities that sum to 1.02");
     finds(die_of(6, 0.16, 0), &whole, BUFFON_VERIFY_TOTAL, "probabilities that sum to 0.96");
+    passes(die_of(6, 1.0 / 6, 1e20), &whole, BUFFON_W_UNSEEN,
+           "numbers beyond those that doubles tell apart");
+    const double lo[2] = {0, 0}, hi[2] = {1, 1};
+    const buffon_density square = buffon_box(lo, hi, 2);
+    buffon_verify_report r;
+    answers(buffon_verify_density(&r, &square, &whole), BUFFON_E_DIM, "pairs of whole numbers");
 }
 
 /* The place of a mistake: uniforms and point, of which the one makes the other. */
@@ -271,12 +284,6 @@ static void test_rate(void)
     tap_ok(failed == 0, "200 seeds, none fails");
     tap_ok(low <= 0.1 * runs + 6 * sqrt(0.09 * runs), "p below 1/10 in a tenth of them at most");
     tap_note("%g of %g", low, runs);
-}
-
-static void answers(buffon_status got, buffon_status wanted, const char *what)
-{
-    if (!tap_ok(got == wanted, "%s: %s", what, buffon_status_name(wanted)))
-        tap_note("got %s", buffon_status_name(got));
 }
 
 /* A pdf that ends in a jump, anywhere in a cell. */

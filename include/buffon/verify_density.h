@@ -96,11 +96,13 @@ typedef struct buffon_verify_report {
  *  Returns: BUFFON_OK: all that applies was looked at and is well; BUFFON_W_UNSEEN: well, but some
  *           of it could not be looked at (items with looked = 0); BUFFON_E_LAW: report->check is
  *           wrong; the status g or `over` carries; BUFFON_E_NULL, BUFFON_E_DIM (`over` is of
- *           another dim), BUFFON_E_SAMPLES (fewer than 2^10 or more than 2^30),
- *           BUFFON_E_TOLERANCE, BUFFON_E_CONFIDENCE (alpha), BUFFON_E_RESERVED, BUFFON_E_NOMEM;
+ *           another dim; whole numbers of more than one), BUFFON_E_SAMPLES (fewer than 2^10 or
+ *           more than 2^30), BUFFON_E_TOLERANCE, BUFFON_E_CONFIDENCE (alpha), BUFFON_E_RESERVED,
+ *           BUFFON_E_NOMEM;
  *           BUFFON_E_PDF or BUFFON_E_INVERSION where a function of the density failed
  *  Repeat:  the same report for the same arguments, on any machine where g gives the same bits
- *  Cost:    some 5 `samples` points, and 50 bytes of memory a sample
+ *  Cost:    2 to 5 `samples` points, which report->points counts; 8 bytes of memory a sample and
+ *           uniform, for 8 uniforms at most
  *  Since:   0.1
  */
 BUFFON_API BUFFON_CHECK buffon_status buffon_verify_density(buffon_verify_report *report,
