@@ -1,5 +1,5 @@
-/* Private. A density held against itself: what the files of verify_density.h share. Everything works
- * on batches of points of one cloud: uniforms, points, pdf.
+/* Private. A density held against itself: what the files of verify_density.h share. All works on
+ * batches of points of one cloud: uniforms, points, pdf.
  */
 #ifndef BUFFON_SRC_VERIFY_PRIV_H
 #define BUFFON_SRC_VERIFY_PRIV_H
