@@ -18,6 +18,7 @@ typedef struct family_case {
     buffon_verification how;
     int unseen; /* the verification cannot look at all of it: no sum, no cells */
     int timed;  /* gets a line in the bench */
+    int shape;  /* geometric: a uniform of it should cost what one of the sphere's does, or twice */
 } family_case;
 
 static family_case family[FAMILY_MOST];
@@ -55,6 +56,8 @@ static void family_make(void)
     family_of_round();
     family_of_directions();
     family_of_flat();
+    for (size_t k = 0; k < family_count; k++)
+        family[k].shape = 1;
     family_of_lines();
     family_of_special();
     family_of_tables();

@@ -41,13 +41,41 @@ DRAW(7)
 static bench_work *const draws[FAMILY_GROUP] = {draw_0, draw_1, draw_2, draw_3,
                                                 draw_4, draw_5, draw_6, draw_7};
 
+/* Skies of the sizes that people have. What they take lives as long as the program. */
+static void skies_make(void)
+{
+    static const struct {
+        const char *name;
+        size_t columns, rows;
+    } skies[] = {{"sky of 512 x 256", 512, 256}, {"sky of 2048 x 1024", 2048, 1024}};
+    for (size_t k = 0; k < COUNT(skies); k++) {
+        const size_t pixels = skies[k].columns * skies[k].rows;
+        const size_t size = buffon_environment_size(skies[k].columns, skies[k].rows);
+        const buffon_rng_key key = {.seed = 2};
+        double *image = malloc(pixels * sizeof *image);
+        void *memory = malloc(size);
+        if (image == NULL || memory == NULL)
+            bench_must(BUFFON_E_NOMEM);
+        buffon_rng_uniforms_at(image, pixels, &key, 0, 0);
+        const double began = bench_clock();
+        const buffon_density g =
+            buffon_environment(memory, size, image, skies[k].columns, skies[k].rows);
+        printf("%s: made in %.3f s, %.1f MiB\n", skies[k].name, bench_clock() - began,
+               (double)size / (1 << 20));
+        bench_must(g.status);
+        family_plain(skies[k].name, g);
+        free(image);
+    }
+}
+
 int main(void)
 {
     const buffon_density sphere = buffon_sphere();
     const buffon_level best = buffon_cpu_limit(BUFFON_LEVEL_AVX512);
+    family_make();
+    skies_make();
     printf("\n%-40s %9s %9s %9s   (%s)\n", "ns, the generator included", "point", "uniform",
            "of sphere", buffon_level_string(best));
-    family_make();
     for (size_t next = 0; next < family_count;) {
         const family_case *in[FAMILY_GROUP] = {NULL};
         bench_case cases[FAMILY_GROUP];
@@ -76,7 +104,7 @@ int main(void)
                    target.reached);
             snprintf(target.what, sizeof target.what, "%s, a uniform of it to one of the sphere",
                      in[k]->name);
-            if (timed[k]->dim > 1) /* shapes */
+            if (in[k]->shape)
                 bench_want(&target);
         }
     }
