@@ -222,6 +222,7 @@ coverage: ## lines of the library that the tests reach
 	    /^Lines/ && file ~ /^src/ { print $$2 "%  " file; file = "" }'
 
 # Each target is also one of the tests, where it makes its own bytes; the good ones are the seeds.
+# Bytes that are read do not come near a kernel, so those are compiled once, not for each level.
 fuzz: $(filter $(BUILD)/tests/fuzz_%,$(tests)) ## the fuzz targets, FUZZ_SECONDS each, by libFuzzer
 	@mkdir -p $(BUILD)/fuzz
 	@for file in tests/fuzz_*.c; do \
