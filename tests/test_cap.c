@@ -73,8 +73,8 @@ static void test_zones(void)
             const buffon_density g = buffon_zone(z0, z1, up);
             see_zone(&planes, &g, 1 - (wide)z1, (wide)z1 - z0, 1 + (wide)z0, &rng, k);
         }
-        const double h1 = k % 3 ? any(&rng, -960, 0) : 2 - any(&rng, -53, 0), h0 = below(&rng, h1);
-        if (h1 <= 2) {
+        const double h1 = k % 3 ? any(&rng, -1021, 0) : 2 - any(&rng, -53, 0), h0 = below(&rng, h1);
+        if (h1 <= 2 && h1 - h0 >= DBL_MIN) {
             const buffon_density g = buffon_zone_heights(h0, h1, up);
             see_zone(&heights, &g, h0, (wide)h1 - h0, 2 - (wide)h1, &rng, k);
         }
