@@ -24,13 +24,20 @@ static double cap_density(const buffon_density *g)
     return 0.5 * DENSITY_INV_PI / g->param[CAP_HEIGHT];
 }
 
-static int cap_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
+static int cap_draw_from(double *x, double *pdf, const double *u, size_t n, const buffon_density *g,
+                         double h0, double h1)
 {
-    const double h = g->param[CAP_HEIGHT], zone[ZONE_SIZE] = {h, h, g->param[CAP_REST], 0};
-    LEVELS_RUN(cap_map, (x, x + n, x + 2 * n, u, u + n, n, g->param, zone));
+    double *const row[3] = {x, x + n, x + 2 * n};
+    const double zone[ZONE_SIZE] = {g->param[CAP_HEIGHT], h1, g->param[CAP_REST], h0};
+    LEVELS_RUN(cap_map, (row, u, u + n, n, g->param, zone));
     if (pdf)
         density_fill(pdf, cap_density(g), n);
     return 0;
+}
+
+static int cap_draw(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
+{
+    return cap_draw_from(x, pdf, u, n, g, 0, g->param[CAP_HEIGHT]);
 }
 
 static int cap_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
@@ -46,27 +53,41 @@ static int cap_pdf(double *pdf, const double *x, size_t n, const buffon_density 
     return 0;
 }
 
-/* w is half the squared chord d - n, and 2 - w half that of d + n: the shorter keeps its digits. */
-static void cap_unmap(double u[2], double x, double y, double z, const double *param)
+/* The squared chords of a direction to the axis and to its opposite. */
+static void cap_chords(double *near, double *far, const double *axis, double x, double y, double z)
 {
-    const double nx = param[6], ny = param[7], nz = param[8], h = param[CAP_HEIGHT];
-    const double near = (x - nx) * (x - nx) + (y - ny) * (y - ny) + (z - nz) * (z - nz);
-    const double far = (x + nx) * (x + nx) + (y + ny) * (y + ny) + (z + nz) * (z + nz);
-    double across[2];
+    const double ax = axis[0], ay = axis[1], az = axis[2];
+    *near = (x - ax) * (x - ax) + (y - ay) * (y - ay) + (z - az) * (z - az);
+    *far = (x + ax) * (x + ax) + (y + ay) * (y + ay) + (z + az) * (z + az);
+}
+
+/* w is half the squared chord d - n, and 2 - w half that of d + n: the shorter keeps its digits. It
+ * grows from h0. */
+static void cap_unmap(double u[2], double x, double y, double z, const double *param, double h0)
+{
+    const double h = param[CAP_HEIGHT];
+    double near, far, across[2];
+    cap_chords(&near, &far, param + 6, x, y, z);
     frame_across(across, param, x, y, z);
-    u[0] = density_open(near <= far ? 0.5 * near / h : 1 - (0.5 * far - param[CAP_REST]) / h);
+    u[0] =
+        density_open(near <= far ? (0.5 * near - h0) / h : 1 - (0.5 * far - param[CAP_REST]) / h);
     u[1] = buffon_priv_circle_invert(across[0], across[1]);
 }
 
-static int cap_invert(double *u, const double *x, size_t n, const buffon_density *g)
+static int cap_invert_from(double *u, const double *x, size_t n, const buffon_density *g, double h0)
 {
     for (size_t i = 0; i < n; i++) {
         double v[2];
-        cap_unmap(v, x[i], x[n + i], x[2 * n + i], g->param);
+        cap_unmap(v, x[i], x[n + i], x[2 * n + i], g->param, h0);
         u[i] = v[0];
         u[n + i] = v[1];
     }
     return 0;
+}
+
+static int cap_invert(double *u, const double *x, size_t n, const buffon_density *g)
+{
+    return cap_invert_from(u, x, n, g, 0);
 }
 
 static const buffon_density_ops cap_ops = {
@@ -74,9 +95,24 @@ static const buffon_density_ops cap_ops = {
 
 /* About +z the points of even the smallest cap have all their digits; about another axis the
  * doubles near it are 2^-53 apart, and membership must allow for that. */
-static buffon_density cap_make(double h, double rest, const double axis[3])
+static double cap_slack(const double *frame)
 {
-    buffon_density g = {.uniforms = 2, .dim = 3, .ops = &cap_ops};
+    return frame_is_upright(frame) ? 0 : 0x1p-50;
+}
+
+/* The square of the chord of a depth, with room for rounding. */
+static double cap_edge(double depth, double slack, int outwards)
+{
+    const double chord = sqrt(2 * depth);
+    const double moved = outwards ? chord * (1 + 0x1p-50) + slack : chord * (1 - 0x1p-50) - slack;
+    return moved > 0 ? moved * moved : 0;
+}
+
+/* What caps and zones have in common: the frame, the height and what is left of the diameter. */
+static buffon_density cap_begin(const buffon_density_ops *ops, double h, double rest,
+                                const double axis[3])
+{
+    buffon_density g = {.uniforms = 2, .dim = 3, .ops = ops};
     double n[3];
     if (!axis)
         g.status = BUFFON_E_NULL;
@@ -85,11 +121,16 @@ static buffon_density cap_make(double h, double rest, const double axis[3])
     if (g.status != BUFFON_OK)
         return g;
     frame_make(g.param, n);
-    const double slack = frame_is_upright(g.param) ? 0 : 0x1p-50;
-    const double chord = sqrt(2 * h) * (1 + 0x1p-50) + slack;
     g.param[CAP_HEIGHT] = h;
     g.param[CAP_REST] = rest;
-    g.param[CAP_REACH] = chord * chord;
+    return g;
+}
+
+static buffon_density cap_make(double h, double rest, const double axis[3])
+{
+    buffon_density g = cap_begin(&cap_ops, h, rest, axis);
+    if (g.status == BUFFON_OK)
+        g.param[CAP_REACH] = cap_edge(h, cap_slack(g.param), 1);
     return g;
 }
 
@@ -184,7 +225,7 @@ void buffon_cap_invert(double u[2], const double x[3], double cut)
 {
     const buffon_density g = buffon_cap(cut);
     if (g.status == BUFFON_OK)
-        cap_unmap(u, x[0], x[1], x[2], g.param);
+        cap_unmap(u, x[0], x[1], x[2], g.param, 0);
     else
         density_fill(u, (double)NAN, 2);
 }
@@ -197,20 +238,7 @@ enum { ZONE_H0 = CAP_REACH, ZONE_H1, ZONE_UPPER, ZONE_LOWER };
 
 static int cap_draw_zone(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
-    const double *p = g->param;
-    const double zone[ZONE_SIZE] = {p[CAP_HEIGHT], p[ZONE_H1], p[CAP_REST], p[ZONE_H0]};
-    LEVELS_RUN(cap_map, (x, x + n, x + 2 * n, u, u + n, n, p, zone));
-    if (pdf)
-        density_fill(pdf, cap_density(g), n);
-    return 0;
-}
-
-/* The squared chords of a direction to the axis and to its opposite. */
-static void cap_chords(double *near, double *far, const double *axis, double x, double y, double z)
-{
-    const double ax = axis[0], ay = axis[1], az = axis[2];
-    *near = (x - ax) * (x - ax) + (y - ay) * (y - ay) + (z - az) * (z - az);
-    *far = (x + ax) * (x + ax) + (y + ay) * (y + ay) + (z + az) * (z + az);
+    return cap_draw_from(x, pdf, u, n, g, g->param[ZONE_H0], g->param[ZONE_H1]);
 }
 
 static int cap_pdf_zone(double *pdf, const double *x, size_t n, const buffon_density *g)
@@ -229,47 +257,22 @@ static int cap_pdf_zone(double *pdf, const double *x, size_t n, const buffon_den
 
 static int cap_invert_zone(double *u, const double *x, size_t n, const buffon_density *g)
 {
-    const double *p = g->param, h = p[CAP_HEIGHT];
-    for (size_t i = 0; i < n; i++) {
-        const double a = x[i], b = x[n + i], c = x[2 * n + i];
-        double near, far, across[2];
-        cap_chords(&near, &far, p + 6, a, b, c);
-        frame_across(across, p, a, b, c);
-        u[i] = density_open(near <= far ? (0.5 * near - p[ZONE_H0]) / h
-                                        : 1 - (0.5 * far - p[CAP_REST]) / h);
-        u[n + i] = buffon_priv_circle_invert(across[0], across[1]);
-    }
-    return 0;
+    return cap_invert_from(u, x, n, g, g->param[ZONE_H0]);
 }
 
 static const buffon_density_ops cap_zone_ops = {
     .sample = cap_draw_zone, .pdf = cap_pdf_zone, .invert = cap_invert_zone, .name = "buffon.zone"};
-
-/* The square of the chord of a depth, with room for rounding: see cap_make. */
-static double cap_edge(double depth, double slack, int outwards)
-{
-    const double chord = sqrt(2 * depth);
-    const double moved = outwards ? chord * (1 + 0x1p-50) + slack : chord * (1 - 0x1p-50) - slack;
-    return moved > 0 ? moved * moved : 0;
-}
 
 /* From depth h0 to h1 with h = h1 - h0. `left` and `rest` are 2 - h0 and 2 - h1. Each number is
  * given by whoever knows its digits. */
 static buffon_density cap_make_zone(double h0, double h1, double h, double left, double rest,
                                     const double axis[3])
 {
-    buffon_density g = {.uniforms = 2, .dim = 3, .ops = &cap_zone_ops};
-    double n[3];
-    if (!axis)
-        g.status = BUFFON_E_NULL;
-    else if (!(h0 >= 0 && h >= DBL_MIN && h1 <= 2) || frame_unit(n, axis) == 0)
-        g.status = BUFFON_E_SHAPE;
+    const int valid = h0 >= 0 && h1 <= 2;
+    buffon_density g = cap_begin(&cap_zone_ops, valid ? h : (double)NAN, rest, axis);
     if (g.status != BUFFON_OK)
         return g;
-    frame_make(g.param, n);
-    const double slack = frame_is_upright(g.param) ? 0 : 0x1p-50;
-    g.param[CAP_HEIGHT] = h;
-    g.param[CAP_REST] = rest;
+    const double slack = cap_slack(g.param);
     g.param[ZONE_H0] = h0;
     g.param[ZONE_H1] = h1;
     g.param[ZONE_UPPER] = h0 <= 1 ? cap_edge(h0, slack, 0) : cap_edge(left, slack, 1);

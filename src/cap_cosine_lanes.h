@@ -19,15 +19,12 @@ static void LANES(cap_cosine_map)(double *const row[4], const double *u1, const 
         LANES(concentric)(&p, &q, u, v);
         const lanes_d flat = lowest + s * cb * (1.0 + p);
         const lanes_d cosine = lanes_sqrt(flat * flat + off), rise = off / (flat + cosine);
-        lanes_d across = level ? c * cb - s * sb * p : s * p + cb * rise;
-        lanes_d side = s * q, along = cosine;
+        const lanes_d across = level ? c * cb - s * sb * p : s * p + cb * rise, side = s * q;
+        lanes_d along = cosine;
         if (!level)
             along = 1.0 - (across * across + side * side) / (1.0 + (c + sb * rise));
         if (row[3] != NULL)
             lanes_store(row[3] + i, scale * cosine, n - i);
-        LANES(turn)(&across, &side, &along, param);
-        lanes_store(row[0] + i, across, n - i);
-        lanes_store(row[1] + i, side, n - i);
-        lanes_store(row[2] + i, along, n - i);
+        LANES(store_turned)(row, i, n, across, side, along, param);
     }
 }

@@ -4,32 +4,25 @@
  * and 2 - w = (2 - h1) + h (1 - u): products and sums of positives, right to the last digits from
  * the smallest cap to the whole sphere. w is kept in units of h1, where it is u for a cap, and its
  * root apart: products of the smallest heights would leave the doubles. */
-LANES_INLINE void LANES(cap_points)(double *x, double *y, double *z, const double *u1,
-                                    const double *u2, size_t n, const double *param,
-                                    const double *zone, int turned)
+LANES_INLINE void LANES(cap_points)(double *const row[3], const double *u1, const double *u2,
+                                    size_t n, const double *zone, const double *frame)
 {
     const double h = zone[ZONE_HEIGHT], h1 = zone[ZONE_DEPTH], rest = zone[ZONE_REST];
     const double first = zone[ZONE_FIRST] / h1, width = h / h1, root = sqrt(h1);
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
         const lanes_d u = lanes_load(u1 + i, n - i), w = first + width * u;
         const lanes_d s = root * lanes_sqrt(w * (rest + h * (1.0 - u)));
-        lanes_d a, b, c = 1.0 - h1 * w;
+        lanes_d a, b;
         LANES(circle)(&a, &b, lanes_load(u2 + i, n - i));
-        a *= s;
-        b *= s;
-        if (turned)
-            LANES(turn)(&a, &b, &c, param);
-        lanes_store(x + i, a, n - i);
-        lanes_store(y + i, b, n - i);
-        lanes_store(z + i, c, n - i);
+        LANES(store_turned)(row, i, n, a * s, b * s, 1.0 - h1 * w, frame);
     }
 }
 
-static void LANES(cap_map)(double *x, double *y, double *z, const double *u1, const double *u2,
-                           size_t n, const double *param, const double *zone)
+static void LANES(cap_map)(double *const row[3], const double *u1, const double *u2, size_t n,
+                           const double *param, const double *zone)
 {
     if (frame_is_upright(param))
-        LANES(cap_points)(x, y, z, u1, u2, n, param, zone, 0);
+        LANES(cap_points)(row, u1, u2, n, zone, NULL);
     else
-        LANES(cap_points)(x, y, z, u1, u2, n, param, zone, 1);
+        LANES(cap_points)(row, u1, u2, n, zone, param);
 }

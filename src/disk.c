@@ -39,27 +39,29 @@ static int disk_draw_concentric(double *x, double *pdf, const double *u, size_t 
     return 0;
 }
 
-/* `inside` at points of the disk, `outside` elsewhere; no square leaves the doubles. */
-static void disk_judge(double *out, const double *x, size_t n, double radius, double inside,
-                       double outside)
+/* `inside` at points of an ellipse, `outside` elsewhere; no square leaves the doubles. A disk has
+ * both half-axes equal. */
+static void disk_judge(double *out, const double *x, size_t n, double across, double up,
+                       double inside, double outside)
 {
     for (size_t i = 0; i < n; i++) {
-        const double a = x[i] / radius, b = x[n + i] / radius;
+        const double a = x[i] / across, b = x[n + i] / up;
         out[i] = a * a + b * b <= 1 ? inside : outside;
     }
 }
 
 static int disk_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    disk_judge(pdf, x, n, g->param[0], disk_density(g->param[0]), 0);
+    const double radius = g->param[0];
+    disk_judge(pdf, x, n, radius, radius, disk_density(radius), 0);
     return 0;
 }
 
 static int disk_log_pdf(double *log_pdf, const double *x, size_t n, const buffon_density *g)
 {
-    const double log_pi = 0x1.250d048e7a1bdp+0;
-    const double inside = -(log_pi + 2 * buffon_priv_log(g->param[0]));
-    disk_judge(log_pdf, x, n, g->param[0], inside, -(double)INFINITY);
+    const double radius = g->param[0], log_pi = 0x1.250d048e7a1bdp+0;
+    const double inside = -(log_pi + 2 * buffon_priv_log(radius));
+    disk_judge(log_pdf, x, n, radius, radius, inside, -(double)INFINITY);
     return 0;
 }
 
@@ -75,14 +77,19 @@ static int disk_unmap(double *u, const double *x, size_t n, const buffon_density
     return 0;
 }
 
-static int disk_unmap_concentric(double *u, const double *x, size_t n, const buffon_density *g)
+static void disk_unmap_square(double *u, const double *x, size_t n, double across, double up)
 {
     for (size_t i = 0; i < n; i++) {
         double v[2];
-        buffon_priv_concentric_invert(v, x[i] / g->param[0], x[n + i] / g->param[0]);
+        buffon_priv_concentric_invert(v, x[i] / across, x[n + i] / up);
         u[i] = v[0];
         u[n + i] = v[1];
     }
+}
+
+static int disk_unmap_concentric(double *u, const double *x, size_t n, const buffon_density *g)
+{
+    disk_unmap_square(u, x, n, g->param[0], g->param[0]);
     return 0;
 }
 
@@ -251,8 +258,8 @@ static buffon_density disk_make_ring(double r0, double r1, double from, double t
 {
     buffon_density g = {.uniforms = 2, .dim = 2, .ops = &disk_ring_ops};
     const double squares = (r1 - r0) * (r1 + r0), density = 1 / (squares * half);
-    if (!(r0 >= 0 && r0 < r1 && squares >= DBL_MIN && turn > 0 && turn <= 1 && density >= DBL_MIN &&
-          buffon_priv_isfinite(squares) && buffon_priv_isfinite(density))) {
+    if (!(r0 >= 0 && r0 < r1 && squares >= DBL_MIN && squares <= 0x1p1020 && turn > 0 &&
+          turn <= 1 && buffon_priv_isfinite(density))) {
         g.status = BUFFON_E_SHAPE;
         return g;
     }
@@ -296,22 +303,13 @@ static int disk_draw_ellipse(double *x, double *pdf, const double *u, size_t n,
 
 static int disk_pdf_ellipse(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    const double value = disk_ellipse_density(g);
-    for (size_t i = 0; i < n; i++) {
-        const double a = x[i] / g->param[0], b = x[n + i] / g->param[1];
-        pdf[i] = a * a + b * b <= 1 ? value : 0;
-    }
+    disk_judge(pdf, x, n, g->param[0], g->param[1], disk_ellipse_density(g), 0);
     return 0;
 }
 
 static int disk_unmap_ellipse(double *u, const double *x, size_t n, const buffon_density *g)
 {
-    for (size_t i = 0; i < n; i++) {
-        double v[2];
-        buffon_priv_concentric_invert(v, x[i] / g->param[0], x[n + i] / g->param[1]);
-        u[i] = v[0];
-        u[n + i] = v[1];
-    }
+    disk_unmap_square(u, x, n, g->param[0], g->param[1]);
     return 0;
 }
 

@@ -8,15 +8,12 @@ LANES_INLINE void LANES(hemisphere_points)(double *const row[4], const double *u
 {
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
         const lanes_d u = lanes_load(u1 + i, n - i), v = lanes_load(u2 + i, n - i);
-        lanes_d a, b, c = 2.0 * lanes_sqrt(lanes_min(u * (1.0 - u), v * (1.0 - v)));
+        const lanes_d c = 2.0 * lanes_sqrt(lanes_min(u * (1.0 - u), v * (1.0 - v)));
+        lanes_d a, b;
         LANES(concentric)(&a, &b, u, v);
         if (row[3] != NULL)
             lanes_store(row[3] + i, DENSITY_INV_PI * c, n - i);
-        if (frame != NULL)
-            LANES(turn)(&a, &b, &c, frame);
-        lanes_store(row[0] + i, a, n - i);
-        lanes_store(row[1] + i, b, n - i);
-        lanes_store(row[2] + i, c, n - i);
+        LANES(store_turned)(row, i, n, a, b, c, frame);
     }
 }
 
@@ -55,22 +52,17 @@ LANES_INLINE lanes_d LANES(hemisphere_root)(lanes_d *less, lanes_d u, const doub
 /* Depth u below the pole: cos = (1 - u)^(1 / (n + 1)), and sin^2 = (1 - cos) (1 + cos). The pdf is
  * (n + 1) / (2 pi) cos^n, and cos^n = (1 - u) / cos. */
 LANES_INLINE void LANES(hemisphere_powers)(double *const row[4], const double *u1, const double *u2,
-                                           size_t n, const double *param, int turned)
+                                           size_t n, const double *param, const double *frame)
 {
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
         const lanes_d u = lanes_load(u1 + i, n - i);
-        lanes_d less, a, b, c = LANES(hemisphere_root)(&less, u, param);
+        lanes_d less, a, b;
+        const lanes_d c = LANES(hemisphere_root)(&less, u, param);
         const lanes_d s = lanes_sqrt(less * (1.0 + c));
         if (row[3] != NULL)
             lanes_store(row[3] + i, param[LOBE_SCALE] * ((1.0 - u) / c), n - i);
         LANES(circle)(&a, &b, lanes_load(u2 + i, n - i));
-        a *= s;
-        b *= s;
-        if (turned)
-            LANES(turn)(&a, &b, &c, param);
-        lanes_store(row[0] + i, a, n - i);
-        lanes_store(row[1] + i, b, n - i);
-        lanes_store(row[2] + i, c, n - i);
+        LANES(store_turned)(row, i, n, a * s, b * s, c, frame);
     }
 }
 
@@ -78,7 +70,7 @@ static void LANES(hemisphere_power_map)(double *const row[4], const double *u1, 
                                         size_t n, const double *param)
 {
     if (frame_is_upright(param))
-        LANES(hemisphere_powers)(row, u1, u2, n, param, 0);
+        LANES(hemisphere_powers)(row, u1, u2, n, param, NULL);
     else
-        LANES(hemisphere_powers)(row, u1, u2, n, param, 1);
+        LANES(hemisphere_powers)(row, u1, u2, n, param, param);
 }

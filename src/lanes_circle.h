@@ -33,3 +33,14 @@ LANES_INLINE void LANES(turn)(lanes_d *x, lanes_d *y, lanes_d *z, const double f
     *y = t * f[1] + b * f[4] + a * f[7];
     *z = t * f[2] + b * f[5] + a * f[8];
 }
+
+/* Stores such vectors at i of three rows; a frame of NULL leaves the axis at +z. */
+LANES_INLINE void LANES(store_turned)(double *const row[3], size_t i, size_t n, lanes_d x,
+                                      lanes_d y, lanes_d z, const double *frame)
+{
+    if (frame != NULL)
+        LANES(turn)(&x, &y, &z, frame);
+    lanes_store(row[0] + i, x, n - i);
+    lanes_store(row[1] + i, y, n - i);
+    lanes_store(row[2] + i, z, n - i);
+}

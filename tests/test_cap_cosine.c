@@ -5,23 +5,12 @@
 
 #include <buffon/buffon.h>
 
-#include "grid.h"
 #include "refused.h"
-
-typedef long double wide;
-
-#define WIDE_PI 3.14159265358979323846264338327950288L
+#include "round.h"
 
 enum { NODES = 24 };
 
 static wide node[NODES], weight[NODES];
-
-/* Valgrind, for one, computes long doubles in 53 bits. */
-static int have_wide(void)
-{
-    volatile wide one = 1, tiny = 0x1p-60L;
-    return LDBL_MANT_DIG >= 64 && one + tiny > one;
-}
 
 /* Gauss and Legendre's nodes on (0, 1), by Newton's method. */
 static void make_nodes(void)
@@ -129,25 +118,9 @@ static example any_example(buffon_rng *rng, int k)
     return e;
 }
 
-typedef struct worst {
-    double most;
-} worst;
-
-static void see_error(worst *w, wide error)
-{
-    if (!(error <= w->most))
-        w->most = error == error ? (double)error : INFINITY;
-}
-
-static void report(const worst *w, double limit, const char *what)
-{
-    tap_ok(w->most <= limit, "%s: at most %g", what, limit);
-    tap_note("worst %.3f", w->most);
-}
-
 static void test_irradiance(void)
 {
-    worst above = {0}, cut = {0}, turned = {0};
+    ulps_worst above = {0}, cut = {0}, turned = {0};
     buffon_rng rng = buffon_rng_make(1, 41);
     for (int k = 0; k < 3000; k++) {
         const example e = any_example(&rng, k);
@@ -199,8 +172,8 @@ static wide area_between(wide from, wide to, wide angle, wide b)
 }
 
 /* Where a point of a cut cap stands, as the two uniforms; about +z. */
-static void see_cut(worst *w, worst *tail, worst *along, const example *e, const double x[3],
-                    const double u[2], wide b)
+static void see_cut(ulps_worst *w, ulps_worst *tail, ulps_worst *along, const example *e,
+                    const double x[3], const double u[2], wide b)
 {
     const wide length = hypotl(e->normal[0], e->normal[1]);
     const wide tx = e->normal[0] / length, ty = e->normal[1] / length;
@@ -229,7 +202,7 @@ static void see_cut(worst *w, worst *tail, worst *along, const example *e, const
 }
 
 /* A point of a cap above the horizon, lifted from the concentric disk; about +z. */
-static void see_whole(worst *w, const example *e, const double x[3], const double u[2], wide b)
+static void see_whole(ulps_worst *w, const example *e, const double x[3], const double u[2], wide b)
 {
     const wide length = hypotl(e->normal[0], e->normal[1]), s = sinl(e->angle), c = cosl(e->angle);
     const wide tx = length > 0 ? e->normal[0] / length : 1;
@@ -248,7 +221,7 @@ static void see_whole(worst *w, const example *e, const double x[3], const doubl
 
 static void test_points(void)
 {
-    worst whole = {0}, across = {0}, tail = {0}, along = {0}, length = {0}, drawn = {0};
+    ulps_worst whole = {0}, across = {0}, tail = {0}, along = {0}, length = {0}, drawn = {0};
     int there = 1;
     buffon_rng rng = buffon_rng_make(2, 41);
     for (int k = 0; k < 3000; k++) {
@@ -257,9 +230,7 @@ static void test_points(void)
         double u[2], x[3], pdf = NAN, again = NAN, v[2] = {0};
         wide b, lean;
         grid_pair(u, &rng, k);
-        there &= buffon_density_sample(x, &pdf, u, 1, &g) == BUFFON_OK &&
-                 buffon_density_pdf(&again, x, 1, &g) == BUFFON_OK &&
-                 buffon_density_invert(v, x, 1, &g) == BUFFON_OK;
+        there &= round_trip(x, &pdf, &again, v, u, &g);
         there &= fabs(v[0] - u[0]) < 1e-6 && v[1] > 0 && v[1] < 1;
         set_height(&b, &lean, e.axis, e.normal);
         see_error(&length,
@@ -285,7 +256,7 @@ static void test_points(void)
 /* About a surface that looks up the cosine is z, to the last digits however low. */
 static void test_level(void)
 {
-    worst cosine = {0}, given = {0}, back = {0};
+    ulps_worst cosine = {0}, given = {0}, back = {0};
     buffon_rng rng = buffon_rng_make(4, 41);
     for (int k = 0; k < 3000; k++) {
         const example e = any_example(&rng, k);
@@ -293,10 +264,8 @@ static void test_level(void)
         const double total = buffon_cap_irradiance(e.angle, e.normal, e.axis);
         double u[2], x[3] = {0}, pdf = NAN, again = NAN, v[2] = {0};
         grid_pair(u, &rng, k);
-        if (buffon_density_sample(x, &pdf, u, 1, &g) != BUFFON_OK ||
-            buffon_density_pdf(&again, x, 1, &g) != BUFFON_OK ||
-            buffon_density_invert(v, x, 1, &g) != BUFFON_OK)
-            cosine.most = INFINITY;
+        if (!round_trip(x, &pdf, &again, v, u, &g))
+            cosine.ulps = INFINITY;
         see_error(&cosine, fabsl((wide)pdf * total / x[2] - 1) * 0x1p52L);
         if (e.angle < 1e-3)
             continue; /* the doubles near the axis are 2^-53 apart, and so are their uniforms */
@@ -341,7 +310,7 @@ static void test_known(void)
 static void test_spheres(void)
 {
     const double here[3] = {1, 2, 3}, up[3] = {0, 0, 1}, far[3] = {0, INFINITY, 0};
-    worst whole = {0}, set = {0};
+    ulps_worst whole = {0}, set = {0};
     buffon_rng rng = buffon_rng_make(3, 41);
     for (int k = 0; k < 2000; k++) {
         double from[3], centre[3];
@@ -425,7 +394,7 @@ static void test_refusals(void)
 int main(void)
 {
     make_nodes();
-    if (have_wide()) {
+    if (ulps_have_wide()) {
         test_irradiance();
         test_points();
         test_spheres();

@@ -42,7 +42,9 @@ typedef struct ulps_worst {
 ULPS_UNUSED static void ulps_see_error(ulps_worst *w, double error, double allowed,
                                        const double *at)
 {
-    if (!(error <= w->ulps))
+    if (error != error)
+        error = INFINITY;
+    if (error > w->ulps)
         w->ulps = error;
     if (!(error / allowed <= w->share)) {
         w->share = error / allowed;

@@ -48,7 +48,7 @@ BUFFON_API buffon_density buffon_cap_about(double cut, const double axis[3]);
  *  Law, Draws, Returns: as buffon_cap_about. An angle below 2.2e-154, whose g would exceed the
  *           doubles, is refused too
  *  Exact:   as buffon_cap_about. From 1e-9 to pi, about +z: g, the height, the sine of a point and,
- *           absolutely, its coordinates within 2^-50 (tests/test_round.c)
+ *           absolutely, its coordinates within 2^-50 (tests/test_cap.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap_angle(double half_angle, const double axis[3]);
@@ -91,7 +91,7 @@ BUFFON_API buffon_density buffon_cap_of_sphere(const double from[3], const doubl
  *           below 2^-1022, whose g would exceed the doubles, is refused too
  *  Exact:   about +z: x and y within 5 ulp, z within 2^-51, at any height and depth; about another
  *           axis |x| within 2^-49 of 1 and the depth within 2^-50. g within 2^-51 of itself
- *           (tests/test_round.c)
+ *           (tests/test_cap.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_zone(double z0, double z1, const double axis[3]);
@@ -103,7 +103,7 @@ BUFFON_API buffon_density buffon_zone(double z0, double z1, const double axis[3]
  *           axis[3]         finite, not zero
  *  Law, Draws, Returns: as buffon_zone
  *  Exact:   about +z: x and y within 6 ulp, z within 2^-50; g within 2^-50 of itself, of the
- *           thinnest zones and near both poles too (tests/test_round.c)
+ *           thinnest zones and near both poles too (tests/test_cap.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_zone_angles(double angle0, double angle1, const double axis[3]);
@@ -124,7 +124,7 @@ BUFFON_API buffon_density buffon_zone_heights(double h0, double h1, const double
  *  Law:     the zone from the edge of the cap to the opposite pole
  *  Draws, Returns: as buffon_zone
  *  Exact:   as buffon_zone_angles; the smallest cap is left out, and so is all but the smallest
- *           (tests/test_round.c)
+ *           (tests/test_cap.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_cap_complement_angle(double half_angle, const double axis[3]);

@@ -37,8 +37,8 @@ BUFFON_API double buffon_cap_irradiance(double half_angle, const double axis[3],
  *           whole cap is above the horizon they fill an ellipse: those of buffon_disk_concentric(1)
  *           on the cap's base, lifted to the sphere along the normal. Where the horizon cuts the
  *           cap, u1 chooses a plane that holds the normal's direction by the area on either side of
- *           it, and u2 the place in it, from the horizon up and over. g is 0 below the horizon,
- *           off the cap and where |x|^2 is further than 2^-20 from 1
+ *           it, and u2, at least 2^-60, the place in it, from the horizon up and over. g is 0 below
+ *           the horizon, off the cap and where |x|^2 is further than 2^-20 from 1
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL, or BUFFON_E_SHAPE: also where no
  *           part of the cap is above the horizon

@@ -45,7 +45,8 @@ BUFFON_API buffon_density buffon_henyey_greenstein(double g, const double axis[3
  *           |x|^2 is further than 2^-20 from 1
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE or BUFFON_E_NULL
- *  Exact:   about +z, for every kappa: x and y within 4 ulp, z within 2^-51, g along with the point
+ *  Exact:   about +z, for every kappa: x and y within 4 ulp where u1 and u1 / kappa are 2^-1000 or
+ *           more (below that w leaves the normal doubles), z within 2^-51, g along with the point
  *           within 4 ulp, g at it within 8 + 4 kappa w. About another axis x within 2^-50, and g at
  *           given points as well as their chord to the axis is known (tests/test_directional.c)
  *  Source:  R. Fisher (1953), Dispersion on a sphere

@@ -73,8 +73,8 @@ BUFFON_API buffon_density buffon_annulus(double r0, double r1);
  *           g = 2 / ((angle1 - angle0) (r1 - r0) (r1 + r0)). The edges count as inside, with 2^-50
  *           of radius and of a turn to spare
  *  Draws:   2
- *  Returns: a density of 2 coordinates; it carries BUFFON_E_SHAPE, also where g would not be a
- *           normal double
+ *  Returns: a density of 2 coordinates; it carries BUFFON_E_SHAPE, also where g would exceed the
+ *           doubles
  *  Exact:   x and y within 2^-49 r1, g within 4 ulp (tests/test_round.c)
  *  Since:   0.1
  */

@@ -65,9 +65,10 @@ BUFFON_API buffon_density buffon_hemisphere_cosine_about(const double axis[3]);
  *           2 pi u2 about it. g is 0 where z <= 0 and where |x|^2 is further than 2^-20 from 1
  *  Draws:   2
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_SHAPE
- *  Exact:   x and y within 5 ulp each, z and g along with the point within 4; g at a given point
- *           within 5 + 3 n |log z| ulp where it is a normal double. buffon_density_log_pdf holds
- *           everywhere (tests/test_round.c)
+ *  Exact:   x and y within 5 ulp each where u1 / (n + 1) is 2^-1000 or more (below that the depth
+ *           under the pole leaves the normal doubles), z and g along with the point within 4; g at
+ *           a given point within 5 + 3 n |log z| ulp where it is a normal double.
+ *           buffon_density_log_pdf holds everywhere (tests/test_cap.c)
  *  Source:  B. Phong (1975), Illumination for computer generated pictures
  *  Since:   0.1
  */
@@ -80,7 +81,7 @@ BUFFON_API buffon_density buffon_hemisphere_power(double exponent);
  *  Law, Draws: as buffon_hemisphere_power, turned from +z to the axis
  *  Returns: a density of 3 coordinates; it carries BUFFON_E_NULL or BUFFON_E_SHAPE
  *  Exact:   |x| within 2^-49 of 1; g along with the point as buffon_hemisphere_power, g at a given
- *           point as far as its angle is known (tests/test_round.c)
+ *           point as far as its angle is known (tests/test_cap.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_hemisphere_power_about(double exponent, const double axis[3]);
