@@ -10,6 +10,10 @@
 /* 1 / pi, which is also 1 / (2 pi) and 1 / (4 pi) but for the exponent. */
 #define DENSITY_INV_PI 0x1.45f306dc9c883p-2
 
+/* 1 / sqrt(2 pi), and the logarithm of its inverse. */
+#define DENSITY_INV_SQRT_2PI 0x1.9884533d43651p-2
+#define DENSITY_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
+
 /* Mixes all that a density depends on, as far as the library can see it. */
 uint64_t buffon_priv_density_identity(uint64_t mix, const buffon_density *g);
 
