@@ -1,5 +1,6 @@
 #include "guard.h"
 
+#include <float.h>
 #include <math.h>
 
 #include <buffon/truncated.h>
@@ -95,8 +96,7 @@ static const buffon_density_ops restricted_blind_ops = {.sample = restricted_sam
 /* The uniform of a bound; of an infinite one that of the tail's end, on the side of the other. */
 static buffon_status restricted_level(double *u, double x, const buffon_density *g)
 {
-    const double most = 0x1.fffffffffffffp+1023;
-    const double finite = x > most ? most : x < -most ? -most : x;
+    const double finite = x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
     return buffon_density_invert(u, &finite, 1, g);
 }
 
