@@ -38,28 +38,32 @@ static inline void density_fill(double *x, double value, size_t n)
         x[i] = value;
 }
 
+/* The nearest point of an interval. */
+static inline double density_held(double x, double least, double most)
+{
+    return x < least ? least : x > most ? most : x;
+}
+
 /* A uniform that was found by inversion, moved off the ends that rounding may have led it to: to
  * the outermost of those that the generator makes. */
 static inline double density_open(double u)
 {
-    const double least = 0x1p-53, most = 1 - 0x1p-53;
-    return u < least ? least : u > most ? most : u;
+    return density_held(u, 0x1p-53, 1 - 0x1p-53);
 }
 
 /* The same for laws whose small uniforms count: off 0 and 1 by as little as there is. */
 static inline double density_inside(double u)
 {
-    const double least = 0x1p-1074, most = 1 - 0x1p-53;
-    return u < least ? least : u > most ? most : u;
+    return density_held(u, 0x1p-1074, 1 - 0x1p-53);
 }
 
-/* x moved between the neighbours of lo and hi, as far as there are any: rounding may have led it to
- * a bound. */
-static inline double density_between(double x, double lo, double hi)
+/* Where points between lo and hi are held: by the neighbours of these, as far as there are any, as
+ * rounding may lead to a bound. */
+static inline void density_inner(double *least, double *most, double lo, double hi)
 {
     const double up = buffon_priv_nextup(lo), down = buffon_priv_nextdown(hi);
-    const double least = up < hi ? up : lo, most = up < hi ? down : hi;
-    return x < least ? least : x > most ? most : x;
+    *least = up < hi ? up : lo;
+    *most = up < hi ? down : hi;
 }
 
 #endif

@@ -109,13 +109,15 @@ static int truncated_sample(double *x, double *pdf, const double *u, size_t n,
     const double *p = g->param, sign = p[TRUNCATED_SIGN];
     const double lo = sign > 0 ? p[TRUNCATED_BASE] : p[TRUNCATED_OTHER];
     const double hi = sign > 0 ? p[TRUNCATED_OTHER] : p[TRUNCATED_BASE];
+    double least, most;
+    density_inner(&least, &most, lo, hi);
     for (size_t i = 0; i < n; i++) {
         const double v = sign > 0 ? u[i] : 1 - u[i], rest = sign > 0 ? 1 - u[i] : u[i];
         double left;
         int back;
         const double away = truncated_away(&back, &left, v, rest, p);
         x[i] = back ? p[TRUNCATED_OTHER] - sign * away : p[TRUNCATED_BASE] + sign * away;
-        x[i] = density_between(x[i], lo, hi);
+        x[i] = density_held(x[i], least, most);
         if (pdf)
             pdf[i] = p[TRUNCATED_PEAK] * left;
     }

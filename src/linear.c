@@ -16,12 +16,6 @@ static buffon_status linear_check(double lo, double hi)
     return width >= 0x1p-1020 && buffon_priv_isfinite(width) ? BUFFON_OK : BUFFON_E_DOMAIN;
 }
 
-/* The nearest point of an interval, from which points outside are taken back. */
-static double linear_held(double x, double lo, double hi)
-{
-    return x < lo ? lo : x > hi ? hi : x;
-}
-
 /* ---- from end to end ---------------------------------------------------------------------- */
 
 /* `param`: lo, hi, the heights at the ends as shares of their sum, hi - lo. */
@@ -46,13 +40,17 @@ static int linear_pdf(double *pdf, const double *x, size_t n, const buffon_densi
 static int linear_sample(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
     const double *p = g->param, lo = p[LINEAR_LO], hi = p[LINEAR_HI], width = p[LINEAR_WIDTH];
-    const double a = p[LINEAR_A], b = p[LINEAR_B];
+    const double a = p[LINEAR_A], b = p[LINEAR_B], base[] = {lo, hi};
+    double least, most;
+    density_inner(&least, &most, lo, hi);
     for (size_t i = 0; i < n; i++) {
         const double up = u[i] < 0x1p-500 ? 0x1p400 : 1, rest = 1 - u[i];
         const double height = ramp_height(a * up, b * up, u[i], rest) / up;
         const double s = u[i] * up / (a + height), c = rest / (b + height);
         const double low = width < 1 ? s * width / up : width / up * s, high = c * width;
-        x[i] = density_between(low < high ? lo + low : hi - high, lo, hi);
+        double way;
+        const size_t end = ramp_end(&way, low, high);
+        x[i] = density_held(base[end] + way, least, most);
     }
     return pdf ? linear_pdf(pdf, x, n, g) : 0;
 }
@@ -61,7 +59,7 @@ static int linear_invert(double *u, const double *x, size_t n, const buffon_dens
 {
     const double *p = g->param, width = p[LINEAR_WIDTH];
     for (size_t i = 0; i < n; i++) {
-        const double at = linear_held(x[i], p[LINEAR_LO], p[LINEAR_HI]);
+        const double at = density_held(x[i], p[LINEAR_LO], p[LINEAR_HI]);
         const double low = (at - p[LINEAR_LO]) / width, high = (p[LINEAR_HI] - at) / width;
         u[i] = density_inside(low * (p[LINEAR_A] * (1 + high) + p[LINEAR_B] * low));
     }
@@ -129,16 +127,18 @@ static int triangular_sample(double *x, double *pdf, const double *u, size_t n,
                              const buffon_density *g)
 {
     const double *p = g->param, lo = p[TRIANGLE_LO], mode = p[TRIANGLE_MODE], hi = p[TRIANGLE_HI];
+    double least, most;
+    density_inner(&least, &most, lo, hi);
     for (size_t i = 0; i < n; i++) {
         const double gap = p[TRIANGLE_BELOW] - u[i];
         int inner;
         double away;
         if (gap > 0) {
             away = triangular_away(&inner, u[i], gap, p[TRIANGLE_A], p[TRIANGLE_BELOW]);
-            x[i] = density_between(inner ? mode - away : lo + away, lo, hi);
+            x[i] = density_held(inner ? mode - away : lo + away, least, most);
         } else {
             away = triangular_away(&inner, 1 - u[i], -gap, p[TRIANGLE_B], p[TRIANGLE_ABOVE]);
-            x[i] = density_between(inner ? mode + away : hi - away, lo, hi);
+            x[i] = density_held(inner ? mode + away : hi - away, least, most);
         }
     }
     return pdf ? triangular_pdf(pdf, x, n, g) : 0;
@@ -148,7 +148,7 @@ static int triangular_invert(double *u, const double *x, size_t n, const buffon_
 {
     const double *p = g->param;
     for (size_t i = 0; i < n; i++) {
-        const double at = linear_held(x[i], p[TRIANGLE_LO], p[TRIANGLE_HI]);
+        const double at = density_held(x[i], p[TRIANGLE_LO], p[TRIANGLE_HI]);
         const double low = (at - p[TRIANGLE_LO]) / p[TRIANGLE_A];
         const double past = (at - p[TRIANGLE_MODE]) / p[TRIANGLE_B];
         const double high = (p[TRIANGLE_HI] - at) / p[TRIANGLE_B];

@@ -240,11 +240,13 @@ static int normal_truncated_sample(double *x, double *pdf, const double *u, size
     const int up = p[NORMAL_SIGN] > 0;
     const double lo = up ? p[NORMAL_NEAR] : p[NORMAL_OTHER];
     const double hi = up ? p[NORMAL_OTHER] : p[NORMAL_NEAR], whole = normal_whole(p);
+    double least, most;
+    density_inner(&least, &most, lo, hi);
     for (size_t i = 0; i < n; i++) {
         double z, d;
         const double y =
             up ? normal_point(&z, &d, u[i], 1 - u[i], p) : normal_point(&z, &d, 1 - u[i], u[i], p);
-        x[i] = density_between(y, lo, hi);
+        x[i] = density_held(y, least, most);
         if (pdf)
             pdf[i] = buffon_priv_exp(-normal_fall(z, d, p)) / whole;
     }
