@@ -66,4 +66,17 @@ static inline int line_least_points(buffon_density g)
     return good;
 }
 
+/* Whether points of uniforms next to 0 and 1 are inside the bounds, however coarse doubles are
+ * there. */
+static inline int line_strictly_inside(buffon_density g, double lo, double hi)
+{
+    static const double u[] = {0x1p-1074, 0x1p-53, 1 - 0x1p-53};
+    int good = g.status == BUFFON_OK;
+    for (int i = 0; i < 3; i++) {
+        const double x = one_x(&g, u[i]);
+        good &= x > lo && x < hi;
+    }
+    return good;
+}
+
 #endif

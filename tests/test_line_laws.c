@@ -466,6 +466,16 @@ static void test_least_points(void)
            "points of the smallest uniforms, and g at them");
 }
 
+static void test_bounds(void)
+{
+    tap_ok(line_strictly_inside(buffon_linear(1, 2, 1, 3), 1, 2) &&
+               line_strictly_inside(buffon_linear(-2, -1, 3, 0), -2, -1) &&
+               line_strictly_inside(buffon_triangular(1, 1, 2), 1, 2) &&
+               line_strictly_inside(buffon_triangular(1, 2, 2), 1, 2) &&
+               line_strictly_inside(buffon_tent(0x1p60, 0x1p10), 0x1p60 - 0x1p10, 0x1p60 + 0x1p10),
+           "linear, triangular, tent: points are strictly inside");
+}
+
 static void test_known_points(void)
 {
     const buffon_density cube = buffon_power(2, 0, 1), log_uniform = buffon_power(-1, 1, 16);
@@ -521,6 +531,7 @@ int main(void)
     test_special_points();
     test_known_points();
     test_least_points();
+    test_bounds();
     test_order();
     return tap_done();
 }

@@ -315,6 +315,18 @@ static void test_special_points(void)
            "lognormal: points of the smallest uniforms, and g at them");
 }
 
+static void test_bounds(void)
+{
+    tap_ok(line_strictly_inside(buffon_exponential_truncated(1, 1, 2), 1, 2) &&
+               line_strictly_inside(buffon_exponential_truncated(-1, 1, 2), 1, 2) &&
+               line_strictly_inside(buffon_exponential_truncated(0, -2, -1), -2, -1),
+           "exponential between bounds: points are strictly inside");
+    tap_ok(line_strictly_inside(buffon_normal_truncated(0, 1, 1, 2), 1, 2) &&
+               line_strictly_inside(buffon_normal_truncated(0, 1, -2, -1), -2, -1) &&
+               line_strictly_inside(buffon_normal_truncated(1.5, 0.1, 1, 2), 1, 2),
+           "normal between bounds: points are strictly inside");
+}
+
 int main(void)
 {
     if (ulps_have_wide()) {
@@ -327,5 +339,6 @@ int main(void)
     }
     test_refused();
     test_special_points();
+    test_bounds();
     return tap_done();
 }
