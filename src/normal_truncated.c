@@ -333,8 +333,8 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
         g.status = BUFFON_E_DOMAIN;
         return g;
     }
-    const normal_mass near = normal_mass_of(alpha, length);
-    const normal_mass other = normal_mass_of(-beta, length), none = {0, 0};
+    const normal_mass near = normal_mass_of(alpha, length), none = {0, 0};
+    const normal_mass other = beta <= DBL_MAX ? normal_mass_of(-beta, length) : none;
     g.param[NORMAL_NEAR] = up ? lo : hi;
     g.param[NORMAL_OTHER] = up ? hi : lo;
     g.param[NORMAL_SIGN] = up ? 1 : -1;
@@ -343,8 +343,8 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
     g.param[NORMAL_LENGTH] = length;
     g.param[NORMAL_NEAR_M] = near.m;
     g.param[NORMAL_NEAR_S] = near.s;
-    g.param[NORMAL_OTHER_M] = beta <= DBL_MAX ? other.m : none.m;
-    g.param[NORMAL_OTHER_S] = beta <= DBL_MAX ? other.s : none.s;
+    g.param[NORMAL_OTHER_M] = other.m;
+    g.param[NORMAL_OTHER_S] = other.s;
     g.param[NORMAL_SHARE] =
         near.m * DENSITY_INV_SQRT_2PI * buffon_priv_exp(near.s - 0.5 * alpha * alpha);
     g.param[NORMAL_CENTRAL] = buffon_priv_copysign(
