@@ -156,28 +156,26 @@ static int affine_sample(double *x, double *pdf, const double *u, size_t n, cons
     return status;
 }
 
-/* What an operation of g on y needs and gives. */
-typedef enum affine_job { AFFINE_PDF, AFFINE_LOG_PDF, AFFINE_INVERT } affine_job;
+/* An operation of the part: buffon_density_pdf or one of its kind. */
+typedef buffon_status affine_job(double *out, const double *y, size_t n,
+                                 const buffon_density *part);
 
-static int affine_fold(double *out, const double *x, size_t n, const buffon_density *g,
-                       affine_job job)
+/* The way back to y for m points from `at` on of n. */
+typedef void affine_way(double *y, const double *x, size_t n, size_t at, size_t m,
+                        const affine_lu *lu, const buffon_density *g);
+
+/* What the part says of the y of points. */
+static int affine_pull(double *out, const double *x, size_t n, const buffon_density *g,
+                       affine_job *job, affine_way *back, const affine_lu *lu)
 {
-    const buffon_density *part = g->data[0];
-    const size_t wide = job == AFFINE_INVERT ? g->uniforms : 1, points = AFFINE_TILE / g->dim;
+    const size_t wide = job == buffon_density_invert ? g->uniforms : 1;
+    const size_t points = AFFINE_TILE / g->dim, room = AFFINE_TILE / wide;
+    const size_t batch = points < room ? points : room;
     double y[AFFINE_TILE], one[AFFINE_TILE];
-    affine_lu lu;
-    affine_factor(&lu, affine_matrix(g), g->dim);
-    const size_t room = AFFINE_TILE / wide, batch = points < room ? points : room;
     for (size_t at = 0; at < n; at += batch) {
         const size_t m = n - at < batch ? n - at : batch;
-        buffon_status status;
-        affine_back(y, x, n, at, m, &lu, g);
-        if (job == AFFINE_PDF)
-            status = buffon_density_pdf(one, y, m, part);
-        else if (job == AFFINE_LOG_PDF)
-            status = buffon_density_log_pdf(one, y, m, part);
-        else
-            status = buffon_density_invert(one, y, m, part);
+        back(y, x, n, at, m, lu, g);
+        const buffon_status status = job(one, y, m, g->data[0]);
         if (status != BUFFON_OK)
             return status;
         for (size_t j = 0; j < wide; j++)
@@ -186,9 +184,17 @@ static int affine_fold(double *out, const double *x, size_t n, const buffon_dens
     return 0;
 }
 
+static int affine_fold(double *out, const double *x, size_t n, const buffon_density *g,
+                       affine_job *job)
+{
+    affine_lu lu;
+    affine_factor(&lu, affine_matrix(g), g->dim);
+    return affine_pull(out, x, n, g, job, affine_back, &lu);
+}
+
 static int affine_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    const int result = affine_fold(pdf, x, n, g, AFFINE_PDF);
+    const int result = affine_fold(pdf, x, n, g, buffon_density_pdf);
     for (size_t i = 0; i < n && result == 0; i++)
         pdf[i] = affine_over(pdf[i], g->param);
     return result;
@@ -198,7 +204,7 @@ static int affine_log_pdf(double *log_pdf, const double *x, size_t n, const buff
 {
     const double log_2 = 0x1.62e42fefa39efp-1;
     const double log_det = buffon_priv_log(g->param[AFFINE_M]) + log_2 * g->param[AFFINE_E];
-    const int result = affine_fold(log_pdf, x, n, g, AFFINE_LOG_PDF);
+    const int result = affine_fold(log_pdf, x, n, g, buffon_density_log_pdf);
     for (size_t i = 0; i < n && result == 0; i++)
         log_pdf[i] -= log_det;
     return result;
@@ -206,7 +212,7 @@ static int affine_log_pdf(double *log_pdf, const double *x, size_t n, const buff
 
 static int affine_invert(double *u, const double *x, size_t n, const buffon_density *g)
 {
-    return affine_fold(u, x, n, g, AFFINE_INVERT);
+    return affine_fold(u, x, n, g, buffon_density_invert);
 }
 
 static uint64_t affine_identity(uint64_t mix, const buffon_density *g)
@@ -282,85 +288,59 @@ buffon_density buffon_affine(const buffon_density *part, const double *matrix, c
 
 /* ---- rotations ---------------------------------------------------------------------------- */
 
-/* `param` is R by rows. In place; `sign` of -1 for the way back. */
-static void turned_apply(double *to, const double *from, size_t n, size_t at, size_t m,
-                         const double *r, int back)
-{
-    for (size_t i = 0; i < m; i++) {
-        const double x = from[at + i], y = from[n + at + i], z = from[2 * n + at + i];
-        for (size_t j = 0; j < 3; j++)
-            to[j * m + i] = back ? r[j] * x + r[3 + j] * y + r[6 + j] * z
-                                 : r[3 * j] * x + r[3 * j + 1] * y + r[3 * j + 2] * z;
-    }
-}
+/* `param` is R by rows. */
 
+/* R y, in place. */
 static int turned_sample(double *x, double *pdf, const double *u, size_t n, const buffon_density *g)
 {
+    const double *r = g->param;
     const buffon_status status = buffon_density_sample(x, pdf, u, n, g->data[0]);
-    double tile[3];
     for (size_t i = 0; i < n && status == BUFFON_OK; i++) {
-        turned_apply(tile, x, n, i, 1, g->param, 0);
+        const double y[] = {x[i], x[n + i], x[2 * n + i]};
         for (size_t j = 0; j < 3; j++)
-            x[j * n + i] = tile[j];
+            x[j * n + i] = r[3 * j] * y[0] + r[3 * j + 1] * y[1] + r[3 * j + 2] * y[2];
     }
     return status;
 }
 
-static int turned_fold(double *out, const double *x, size_t n, const buffon_density *g,
-                       affine_job job)
+/* y by the transpose of R. */
+static void turned_back(double *y, const double *x, size_t n, size_t at, size_t m,
+                        const affine_lu *none, const buffon_density *g)
 {
-    const buffon_density *part = g->data[0];
-    const size_t wide = job == AFFINE_INVERT ? g->uniforms : 1;
-    const size_t room = AFFINE_TILE / wide, batch = room < AFFINE_TILE / 3 ? room : AFFINE_TILE / 3;
-    double y[AFFINE_TILE], one[AFFINE_TILE];
-    for (size_t at = 0; at < n; at += batch) {
-        const size_t m = n - at < batch ? n - at : batch;
-        buffon_status status;
-        turned_apply(y, x, n, at, m, g->param, 1);
-        if (job == AFFINE_PDF)
-            status = buffon_density_pdf(one, y, m, part);
-        else if (job == AFFINE_LOG_PDF)
-            status = buffon_density_log_pdf(one, y, m, part);
-        else
-            status = buffon_density_invert(one, y, m, part);
-        if (status != BUFFON_OK)
-            return status;
-        for (size_t j = 0; j < wide; j++)
-            memcpy(out + j * n + at, one + j * m, m * sizeof *out);
+    const double *r = g->param;
+    (void)none;
+    for (size_t i = 0; i < m; i++) {
+        const double z[] = {x[at + i], x[n + at + i], x[2 * n + at + i]};
+        for (size_t j = 0; j < 3; j++)
+            y[j * m + i] = r[j] * z[0] + r[3 + j] * z[1] + r[6 + j] * z[2];
     }
-    return 0;
 }
 
 static int turned_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
 {
-    return turned_fold(pdf, x, n, g, AFFINE_PDF);
+    return affine_pull(pdf, x, n, g, buffon_density_pdf, turned_back, NULL);
 }
 
 static int turned_log_pdf(double *log_pdf, const double *x, size_t n, const buffon_density *g)
 {
-    return turned_fold(log_pdf, x, n, g, AFFINE_LOG_PDF);
+    return affine_pull(log_pdf, x, n, g, buffon_density_log_pdf, turned_back, NULL);
 }
 
 static int turned_invert(double *u, const double *x, size_t n, const buffon_density *g)
 {
-    return turned_fold(u, x, n, g, AFFINE_INVERT);
-}
-
-static uint64_t turned_identity(uint64_t mix, const buffon_density *g)
-{
-    return buffon_priv_density_identity(mix, g->data[0]);
+    return affine_pull(u, x, n, g, buffon_density_invert, turned_back, NULL);
 }
 
 static const buffon_density_ops turned_ops = {.sample = turned_sample,
                                               .pdf = turned_pdf,
                                               .log_pdf = turned_log_pdf,
                                               .invert = turned_invert,
-                                              .identity = turned_identity,
+                                              .identity = affine_identity,
                                               .name = "buffon.turned"};
 
 static const buffon_density_ops turned_blind_ops = {.sample = turned_sample,
                                                     .invert = turned_invert,
-                                                    .identity = turned_identity,
+                                                    .identity = affine_identity,
                                                     .name = "buffon.turned"};
 
 static buffon_density turned_make(const buffon_density *part, int given)

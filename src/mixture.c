@@ -40,9 +40,9 @@ static size_t mixture_points(size_t each)
  * edge stands for the half of a step of 2^-53 above it. */
 static double mixture_stretch(double u, double from, double share)
 {
-    const double v = (u - from) / share, half = 0x1p-54 / share, most = 1 - 0x1p-53;
+    const double half = 0x1p-54 / share;
     const double least = from > 0 ? (half < 0.5 ? half : 0.5) : 0x1p-1074;
-    return v < least ? least : v > most ? most : v;
+    return density_held((u - from) / share, least, 1 - 0x1p-53);
 }
 
 /* The points of one tile. own[i] is the part's pdf at its point, which[i] the part. */

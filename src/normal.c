@@ -9,9 +9,6 @@
 #include "density_priv.h"
 #include "elementary.h"
 
-#define NORMAL_INV_SQRT_2PI 0x1.9884533d43651p-2
-#define NORMAL_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
-
 #define KERNELS "normal_lanes.h"
 #include "levels.h"
 
@@ -32,7 +29,7 @@ static int normal_pdf(double *pdf, const double *x, size_t n, const buffon_densi
 
 static int normal_log_pdf(double *log_pdf, const double *x, size_t n, const buffon_density *g)
 {
-    const double rest = NORMAL_LOG_SQRT_2PI + buffon_priv_log(g->param[1]);
+    const double rest = DENSITY_LOG_SQRT_2PI + buffon_priv_log(g->param[1]);
     for (size_t i = 0; i < n; i++) {
         const double z = (x[i] - g->param[0]) / g->param[1];
         log_pdf[i] = z == z ? -0.5 * z * z - rest : -(double)INFINITY;

@@ -15,7 +15,7 @@ LANES_INLINE lanes_d LANES(normal_bell)(lanes_d z, double scale)
 /* From standard normals in x: points and, unless it is NULL, the pdf. */
 static void LANES(normal_map)(double *x, double *pdf, size_t n, double mean, double sd)
 {
-    const double scale = NORMAL_INV_SQRT_2PI / sd;
+    const double scale = DENSITY_INV_SQRT_2PI / sd;
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
         const lanes_d z = lanes_load(x + i, n - i);
         lanes_store(x + i, mean + sd * z, n - i);
@@ -26,7 +26,7 @@ static void LANES(normal_map)(double *x, double *pdf, size_t n, double mean, dou
 
 static void LANES(normal_at)(double *pdf, const double *x, size_t n, double mean, double sd)
 {
-    const double scale = NORMAL_INV_SQRT_2PI / sd;
+    const double scale = DENSITY_INV_SQRT_2PI / sd;
     for (size_t i = 0; i < n; i += LANES_WIDTH) {
         const lanes_d z = (lanes_load(x + i, n - i) - mean) / sd;
         lanes_store(pdf + i, LANES(normal_bell)(z, scale), n - i);

@@ -1,4 +1,4 @@
-/* The normal law between two bounds, and the lognormal.
+/* The normal law between two bounds.
  *
  * In units of the standard deviation, seen from the bound nearer to the mean, "near": the distance
  * d of a point from it has the density exp(-a d - d^2 / 2) up to a factor, a the distance of near
@@ -18,16 +18,12 @@
 #include <float.h>
 #include <math.h>
 
-#include <buffon/math.h>
 #include <buffon/normal.h>
 
 #include "density_priv.h"
 #include "elementary.h"
-#include "pair_math.h"
 
 #define NORMAL_SQRT_2PI 0x1.40d931ff62706p+1
-#define NORMAL_INV_SQRT_2PI 0x1.9884533d43651p-2
-#define NORMAL_LOG_SQRT_2PI 0x1.d67f1c864beb5p-1
 #define NORMAL_FAR 25 /* from where Mills' ratio is an asymptotic series */
 
 /* exp(x^2 / 2) for |x| <= 25: the square in two parts. */
@@ -244,11 +240,13 @@ static int normal_truncated_sample(double *x, double *pdf, const double *u, size
     const int up = p[NORMAL_SIGN] > 0;
     const double lo = up ? p[NORMAL_NEAR] : p[NORMAL_OTHER];
     const double hi = up ? p[NORMAL_OTHER] : p[NORMAL_NEAR], whole = normal_whole(p);
+    double least, most;
+    density_inner(&least, &most, lo, hi);
     for (size_t i = 0; i < n; i++) {
         double z, d;
         const double y =
             up ? normal_point(&z, &d, u[i], 1 - u[i], p) : normal_point(&z, &d, 1 - u[i], u[i], p);
-        x[i] = density_between(y, lo, hi);
+        x[i] = density_held(y, least, most);
         if (pdf)
             pdf[i] = buffon_priv_exp(-normal_fall(z, d, p)) / whole;
     }
@@ -335,8 +333,8 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
         g.status = BUFFON_E_DOMAIN;
         return g;
     }
-    const normal_mass near = normal_mass_of(alpha, length);
-    const normal_mass other = normal_mass_of(-beta, length), none = {0, 0};
+    const normal_mass near = normal_mass_of(alpha, length), none = {0, 0};
+    const normal_mass other = beta <= DBL_MAX ? normal_mass_of(-beta, length) : none;
     g.param[NORMAL_NEAR] = up ? lo : hi;
     g.param[NORMAL_OTHER] = up ? hi : lo;
     g.param[NORMAL_SIGN] = up ? 1 : -1;
@@ -345,109 +343,15 @@ buffon_density buffon_normal_truncated(double mean, double sd, double lo, double
     g.param[NORMAL_LENGTH] = length;
     g.param[NORMAL_NEAR_M] = near.m;
     g.param[NORMAL_NEAR_S] = near.s;
-    g.param[NORMAL_OTHER_M] = beta <= DBL_MAX ? other.m : none.m;
-    g.param[NORMAL_OTHER_S] = beta <= DBL_MAX ? other.s : none.s;
+    g.param[NORMAL_OTHER_M] = other.m;
+    g.param[NORMAL_OTHER_S] = other.s;
     g.param[NORMAL_SHARE] =
-        near.m * NORMAL_INV_SQRT_2PI * buffon_priv_exp(near.s - 0.5 * alpha * alpha);
+        near.m * DENSITY_INV_SQRT_2PI * buffon_priv_exp(near.s - 0.5 * alpha * alpha);
     g.param[NORMAL_CENTRAL] = buffon_priv_copysign(
-        normal_middle_mass(buffon_priv_abs(alpha)) * NORMAL_INV_SQRT_2PI, alpha);
+        normal_middle_mass(buffon_priv_abs(alpha)) * DENSITY_INV_SQRT_2PI, alpha);
     if (!(normal_whole(g.param) >= 0x1p-1000)) /* its greatest density is not a double */
         g.status = BUFFON_E_DOMAIN;
     g.param[NORMAL_BELOW] = buffon_priv_normal_cdf(alpha);
     g.param[NORMAL_ABOVE] = buffon_priv_normal_cdf(-beta);
-    return g;
-}
-
-/* ---- lognormal ---------------------------------------------------------------------------- */
-
-/* `param`: mu, sigma. */
-
-/* z of x, and log x. */
-static double lognormal_place(double *log_x, double x, const buffon_density *g)
-{
-    const pair only = {x, 0}, log_of = pair_log(only);
-    *log_x = log_of.hi;
-    return ((log_of.hi - g->param[0]) + log_of.lo) / g->param[1];
-}
-
-static int lognormal_holds(double x)
-{
-    return x > 0 && x <= DBL_MAX;
-}
-
-static double lognormal_at(double x, double z, const buffon_density *g)
-{
-    return buffon_priv_exp(-0.5 * z * z) * NORMAL_INV_SQRT_2PI / g->param[1] / x;
-}
-
-/* Tiny u may lead below the doubles, and where x has lost digits g is that at x. */
-static int lognormal_sample(double *x, double *pdf, const double *u, size_t n,
-                            const buffon_density *g)
-{
-    const double mu = g->param[0], sigma = g->param[1];
-    buffon_math_normal_quantile(x, u, n);
-    for (size_t i = 0; i < n; i++) {
-        const pair shift = pair_product(sigma, x[i]), sum = pair_sum(mu, shift.hi);
-        const pair all = pair_sum(sum.hi, sum.lo + shift.lo);
-        const double z = x[i];
-        double log_x;
-        x[i] = pair_exp(all, 1);
-        x[i] = x[i] > 0 ? x[i] : 0x1p-1074;
-        if (pdf)
-            pdf[i] = lognormal_at(x[i], x[i] < DBL_MIN ? lognormal_place(&log_x, x[i], g) : z, g);
-    }
-    return 0;
-}
-
-static int lognormal_pdf(double *pdf, const double *x, size_t n, const buffon_density *g)
-{
-    for (size_t i = 0; i < n; i++) {
-        double log_x;
-        pdf[i] =
-            lognormal_holds(x[i]) ? lognormal_at(x[i], lognormal_place(&log_x, x[i], g), g) : 0;
-    }
-    return 0;
-}
-
-static int lognormal_log_pdf(double *log_pdf, const double *x, size_t n, const buffon_density *g)
-{
-    const double rest = NORMAL_LOG_SQRT_2PI + buffon_priv_log(g->param[1]);
-    for (size_t i = 0; i < n; i++) {
-        log_pdf[i] = -(double)INFINITY;
-        if (lognormal_holds(x[i])) {
-            double log_x;
-            const double z = lognormal_place(&log_x, x[i], g);
-            log_pdf[i] = -0.5 * z * z - log_x - rest;
-        }
-    }
-    return 0;
-}
-
-static int lognormal_invert(double *u, const double *x, size_t n, const buffon_density *g)
-{
-    for (size_t i = 0; i < n; i++) {
-        double log_x;
-        u[i] = lognormal_holds(x[i]) ? buffon_priv_normal_cdf(lognormal_place(&log_x, x[i], g))
-                                     : x[i] > 0;
-        u[i] = density_inside(u[i]);
-    }
-    return 0;
-}
-
-static const buffon_density_ops lognormal_ops = {.sample = lognormal_sample,
-                                                 .pdf = lognormal_pdf,
-                                                 .log_pdf = lognormal_log_pdf,
-                                                 .invert = lognormal_invert,
-                                                 .name = "buffon.lognormal"};
-
-buffon_density buffon_lognormal(double mu, double sigma)
-{
-    buffon_density g = {.uniforms = 1, .dim = 1, .ops = &lognormal_ops};
-    if (sigma >= 0x1p-60 && buffon_priv_abs(mu) + 9 * sigma <= 650) {
-        g.param[0] = mu;
-        g.param[1] = sigma;
-    } else {
-        g.status = BUFFON_E_SHAPE;
-    }
     return g;
 }

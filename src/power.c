@@ -119,7 +119,7 @@ static int power_sample(double *x, double *pdf, const double *u, size_t n, const
     for (size_t i = 0; i < n; i++) {
         double w;
         const double y = power_place(&w, u[i], p);
-        x[i] = y < least ? least : y > most ? most : y;
+        x[i] = density_held(y, least, most);
         if (pdf)
             pdf[i] = x[i] < DBL_MIN ? power_at(x[i], p) : power_slope(p[POWER_N], w, x[i]);
     }
@@ -264,7 +264,7 @@ static int weibull_sample(double *x, double *pdf, const double *u, size_t n,
     for (size_t i = 0; i < n; i++) {
         const pair e = weibull_energy(u[i]);
         const double y = pair_exp(pair_over(pair_log(e), k), scale);
-        x[i] = y < POWER_LEAST ? POWER_LEAST : y > DBL_MAX ? DBL_MAX : y;
+        x[i] = density_held(y, POWER_LEAST, DBL_MAX);
         if (pdf)
             pdf[i] =
                 x[i] < DBL_MIN ? weibull_at(x[i], g) : power_slope(shape * (1 - u[i]), e.hi, x[i]);

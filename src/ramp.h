@@ -8,6 +8,12 @@
 
 #include "elementary.h"
 
+/* The height, for a and b of any unit, at the point with the mass t below it and q above. */
+static inline double ramp_height(double a, double b, double t, double q)
+{
+    return sqrt(q * (a * a) + t * (b * b));
+}
+
 /* The point s with the mass t below it and q = 1 - t above it, and its distance c = 1 - s from 1,
  * both with all their digits. The mass below s is s (2 a + (b - a) s) / (a + b) = t. Its root is
  * (sqrt(q a^2 + t b^2) - a) / (b - a); times (sqrt(..) + a) above and below no difference is left.
@@ -15,7 +21,7 @@
 static inline void ramp_place(double *s, double *c, double a, double b, double t, double q)
 {
     const double sum = a + b, p = a / sum, r = b / sum;
-    const double root = sqrt(q * (p * p) + t * (r * r));
+    const double root = ramp_height(p, r, t, q);
     *s = t / (p + root);
     *c = q / (r + root);
 }

@@ -1,5 +1,6 @@
 #include "guard.h"
 
+#include <float.h>
 #include <math.h>
 
 #include <buffon/truncated.h>
@@ -18,15 +19,15 @@ static double restricted_stretch(double u, const double *p)
 {
     const double least = p[RESTRICTED_SPAN] > 0 ? p[RESTRICTED_FROM] : p[RESTRICTED_TO];
     const double most = p[RESTRICTED_SPAN] > 0 ? p[RESTRICTED_TO] : p[RESTRICTED_FROM];
-    const double v = p[RESTRICTED_FROM] + u * p[RESTRICTED_SPAN];
-    return v < least ? least : v > most ? most : v;
+    return density_held(p[RESTRICTED_FROM] + u * p[RESTRICTED_SPAN], least, most);
 }
 
 static int restricted_sample(double *x, double *pdf, const double *u, size_t n,
                              const buffon_density *g)
 {
     const double *p = g->param, mass = buffon_priv_abs(p[RESTRICTED_SPAN]);
-    double v[RESTRICTED_TILE];
+    double v[RESTRICTED_TILE], least, most;
+    density_inner(&least, &most, p[RESTRICTED_LO], p[RESTRICTED_HI]);
     for (size_t at = 0; at < n; at += RESTRICTED_TILE) {
         const size_t m = n - at < RESTRICTED_TILE ? n - at : RESTRICTED_TILE;
         for (size_t i = 0; i < m; i++)
@@ -36,7 +37,7 @@ static int restricted_sample(double *x, double *pdf, const double *u, size_t n,
         if (status != BUFFON_OK)
             return status;
         for (size_t i = at; i < at + m; i++)
-            x[i] = density_between(x[i], p[RESTRICTED_LO], p[RESTRICTED_HI]);
+            x[i] = density_held(x[i], least, most);
         for (size_t i = at; pdf && i < at + m; i++)
             pdf[i] /= mass;
     }
@@ -95,8 +96,7 @@ static const buffon_density_ops restricted_blind_ops = {.sample = restricted_sam
 /* The uniform of a bound; of an infinite one that of the tail's end, on the side of the other. */
 static buffon_status restricted_level(double *u, double x, const buffon_density *g)
 {
-    const double most = 0x1.fffffffffffffp+1023;
-    const double finite = x > most ? most : x < -most ? -most : x;
+    const double finite = density_held(x, -DBL_MAX, DBL_MAX);
     return buffon_density_invert(u, &finite, 1, g);
 }
 

@@ -8,7 +8,6 @@
 
 #include "density_priv.h"
 #include "law.h"
-#include "ulps.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -378,14 +377,12 @@ static void test_affine_refused(void)
 
 /* ---- rotations ---------------------------------------------------------------------------- */
 
-static void test_turned(void)
+static void test_turned_to(void)
 {
     const double axis[] = {1, -2, 0.5}, up[] = {0, 0, 1e-200}, length = sqrt(5.25);
-    const double q[] = {cos(0.5), 0, sin(0.5), 0}, scaled[] = {1e-200 * q[0], 0, 1e-200 * q[2], 0};
     const buffon_density cap = buffon_cap_angle(0.3, up), about = buffon_cap_angle(0.3, axis);
-    const buffon_density g = buffon_turned_to(&cap, axis), h = buffon_turned(&cap, q);
-    const buffon_density k = buffon_turned(&cap, scaled);
-    double p[N], y[3 * N];
+    const buffon_density g = buffon_turned_to(&cap, axis);
+    double p[N];
     int good = draw(&g, 40) && buffon_density_pdf(p, x, N, &about) == BUFFON_OK &&
                buffon_density_invert(back, x, N, &g) == BUFFON_OK;
     for (int i = 0; i < N; i++) {
@@ -395,38 +392,55 @@ static void test_turned(void)
         good &= fabs(back[i] - u[i]) < 1e-12 && pdf[i] == given[i];
     }
     tap_ok(good && verified(&g), "turned: a cap about another axis");
-    good = buffon_density_sample(y, NULL, u, N, &cap) == BUFFON_OK && draw(&h, 40);
+}
+
+static void test_turned(void)
+{
+    const double up[] = {0, 0, 1e-200}, q[] = {cos(0.5), 0, sin(0.5), 0};
+    const double scaled[] = {1e-200 * q[0], 0, 1e-200 * q[2], 0};
+    const buffon_density cap = buffon_cap_angle(0.3, up);
+    const buffon_density g = buffon_turned(&cap, q), h = buffon_turned(&cap, scaled);
+    double y[3 * N];
+    int good = draw(&g, 40) && buffon_density_sample(y, NULL, u, N, &cap) == BUFFON_OK;
     for (int i = 0; i < N; i++) {
         good &= fabs(x[i] - (cos(1) * y[i] + sin(1) * y[2 * N + i])) < 4e-16;
         good &= fabs(x[N + i] - y[N + i]) < 4e-16;
         good &= fabs(x[2 * N + i] - (cos(1) * y[2 * N + i] - sin(1) * y[i])) < 4e-16;
     }
-    memcpy(y, x, sizeof y);
     tap_ok(good, "turned: by a quaternion about y, z goes to x");
-    draw(&k, 40);
-    good = 1;
+    memcpy(y, x, sizeof y);
+    good = draw(&h, 40);
     for (int i = 0; i < 3 * N; i++)
         good &= fabs(x[i] - y[i]) < 4e-16;
     tap_ok(good, "turned: quaternions of any length");
-    const double any[] = {1, 2, -1, 0.5},
-                 v[] = {2, -1, 0.5}; /* y + (2 w v x y + 2 v x (v x y)) / 6.25 */
-    /* y + (2 w v x y + 2 v x (v x y)) / |q|^2 */
-    const buffon_density m = buffon_turned(&cap, any);
-    good = buffon_density_sample(y, NULL, u, N, &cap) == BUFFON_OK && draw(&m, 40);
+}
+
+/* y + (2 w v x y + 2 v x (v x y)) / |q|^2, v the last three parts of q. */
+static void test_turned_by_vectors(void)
+{
+    const double up[] = {0, 0, 1}, q[] = {1, 2, -1, 0.5}, *v = q + 1;
+    const buffon_density cap = buffon_cap_angle(0.3, up), g = buffon_turned(&cap, q);
+    double y[3 * N];
+    int good = draw(&g, 40) && buffon_density_sample(y, NULL, u, N, &cap) == BUFFON_OK;
     for (int i = 0; i < N; i++) {
-        const double p0[] = {y[i], y[N + i], y[2 * N + i]};
+        const double from[] = {y[i], y[N + i], y[2 * N + i]};
         double a[3], b[3];
         for (int j = 0; j < 3; j++)
-            a[j] = v[(j + 1) % 3] * p0[(j + 2) % 3] - v[(j + 2) % 3] * p0[(j + 1) % 3];
+            a[j] = v[(j + 1) % 3] * from[(j + 2) % 3] - v[(j + 2) % 3] * from[(j + 1) % 3];
         for (int j = 0; j < 3; j++)
             b[j] = v[(j + 1) % 3] * a[(j + 2) % 3] - v[(j + 2) % 3] * a[(j + 1) % 3];
         for (int j = 0; j < 3; j++)
-            good &= fabs(x[j * N + i] - (p0[j] + (2 * a[j] + 2 * b[j]) / 6.25)) < 1e-15;
+            good &= fabs(x[j * N + i] - (from[j] + (2 * a[j] + 2 * b[j]) / 6.25)) < 1e-15;
     }
     tap_ok(good, "turned: by any quaternion, as its formula by vectors says");
-    const double zero[4] = {0}, none[] = {1, 0, NAN, 0};
+}
+
+static void test_turned_refused(void)
+{
+    const double up[] = {0, 0, 1}, q[] = {1, 0, 0, 0}, zero[4] = {0}, none[] = {1, 0, NAN, 0};
+    const buffon_density cap = buffon_cap_angle(0.3, up);
     const buffon_density disk = buffon_disk(1), bad = buffon_disk(-1);
-    good = refuses(buffon_turned(NULL, q), BUFFON_E_NULL);
+    int good = refuses(buffon_turned(NULL, q), BUFFON_E_NULL);
     good &= refuses(buffon_turned(&cap, NULL), BUFFON_E_NULL);
     good &= refuses(buffon_turned_to(&cap, NULL), BUFFON_E_NULL);
     good &= refuses(buffon_turned(&disk, q), BUFFON_E_DIM);
@@ -605,7 +619,10 @@ int main(void)
     test_affine_plane();
     test_affine_space();
     test_affine_refused();
+    test_turned_to();
     test_turned();
+    test_turned_by_vectors();
+    test_turned_refused();
     test_nested();
     test_identity();
     test_defensive();

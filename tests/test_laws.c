@@ -7,10 +7,9 @@
 
 #include <buffon/buffon.h>
 
-#include "grid.h"
 #include "law.h"
-
-typedef long double wide;
+#include "line.h"
+#include "ulps.h"
 
 #define WIDE_SQRT_2PI 2.50662827463100050241576528481104525L
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -19,52 +18,6 @@ typedef long double wide;
 #define MOST_SCALE 0x1p1017 /* the largest mean of the one, standard deviation of the other */
 
 enum { DRAWS = 20000, POINTS = 1 << 20, SHORT = 1 << 17, CELLS = 1024 };
-
-/* Valgrind, for one, computes long doubles in 53 bits. */
-static int have_wide(void)
-{
-    volatile wide one = 1, tiny = 0x1p-60L;
-    return LDBL_MANT_DIG >= 64 && one + tiny > one;
-}
-
-/* ---- errors ------------------------------------------------------------------------------- */
-
-static wide ulp(wide x)
-{
-    const double a = fabs((double)x);
-    return a < DBL_MIN ? 0x1p-1074L : (wide)nextafter(a, INFINITY) - a;
-}
-
-/* The worst error met, in units of what is allowed. */
-typedef struct worst {
-    double share, ulps;
-} worst;
-
-static void see_error(worst *w, double error, double allowed)
-{
-    if (!(error <= w->ulps))
-        w->ulps = error;
-    if (!(error / allowed <= w->share))
-        w->share = error / allowed;
-}
-
-/* `allowed` in ulp of the true value. */
-static void see(worst *w, double x, wide exact, double allowed)
-{
-    see_error(w, (double)(fabsl(x - exact) / ulp(exact)), allowed);
-}
-
-/* In ulp of the largest of several terms, which may cancel. */
-static void see_sum(worst *w, double x, wide exact, wide largest, double allowed)
-{
-    see_error(w, (double)(fabsl(x - exact) / ulp(largest)), allowed);
-}
-
-static void report(const worst *w, const char *what)
-{
-    tap_ok(w->share <= 1, "%s", what);
-    tap_note("worst %.3f of what is allowed, %.3f ulp", w->share, w->ulps);
-}
 
 /* ---- arguments ---------------------------------------------------------------------------- */
 
@@ -119,25 +72,23 @@ static double any_scale(buffon_rng *rng, int k)
 
 /* ---- the exponential against its formulas ------------------------------------------------- */
 
-typedef struct exponential_errors {
-    worst x, drawn, given, log_given, u;
-} exponential_errors;
-
-static void see_exponential(exponential_errors *w, double mean, double u)
+static void see_exponential(line_errors *w, double mean, double u)
 {
     const buffon_density g = buffon_exponential(mean);
+    const double at[] = {mean, u, 0, 0};
     double x, pdf;
     if (buffon_density_sample(&x, &pdf, &u, 1, &g) != BUFFON_OK)
         w->x.share = INFINITY;
-    see(&w->x, x, -mean * log1pl(-(wide)u), 2);
-    see(&w->drawn, pdf, (1 - (wide)u) / mean, 2);
+    ulps_see(&w->x, x, -mean * log1pl(-(wide)u), 2, at);
+    ulps_see(&w->drawn, pdf, (1 - (wide)u) / mean, 2, at);
 }
 
 /* The pdf at a given x knows x / mean as well as a division does. Beyond 708 its exp leaves the
  * normal doubles. */
-static void see_exponential_at(exponential_errors *w, double mean, double x)
+static void see_exponential_at(line_errors *w, double mean, double x)
 {
     const buffon_density g = buffon_exponential(mean);
+    const double at[] = {mean, x, 0, 0};
     const wide q = (wide)x / mean, log_pdf = -q - logl(mean);
     double pdf, got, u = NAN;
     if (buffon_density_pdf(&pdf, &x, 1, &g) != BUFFON_OK ||
@@ -145,16 +96,15 @@ static void see_exponential_at(exponential_errors *w, double mean, double x)
         buffon_density_invert(&u, &x, 1, &g) != BUFFON_OK)
         w->given.share = INFINITY;
     if (q < 708)
-        see(&w->given, pdf, expl(-q) / mean, 3 + (double)q);
+        ulps_see(&w->given, pdf, expl(-q) / mean, 3 + (double)q, at);
     if (q < DBL_MAX)
-        see_sum(&w->log_given, got, log_pdf, fmaxl(q, fabsl(logl(mean))), 3);
-    const wide exact = -expm1l(-q);
-    see(&w->u, u, exact < 0x1p-1074L ? 0x1p-1074L : exact > MOST_UNIFORM ? MOST_UNIFORM : exact, 3);
+        ulps_see_terms(&w->log_given, got, log_pdf, fmaxl(q, fabsl(logl(mean))), 3, at);
+    ulps_see(&w->u, u, line_inside(-expm1l(-q)), 3, at);
 }
 
 static void test_exponential_formulas(void)
 {
-    exponential_errors w = {0};
+    line_errors w = {0};
     buffon_rng rng = buffon_rng_make(1, 30);
     for (int k = 0; k < 10 * DRAWS; k++) {
         const double mean = any_scale(&rng, k), u = argument(&rng, k);
@@ -163,11 +113,11 @@ static void test_exponential_formulas(void)
         see_exponential_at(&w, mean, any_scale(&rng, k + 1));
         see_exponential_at(&w, mean, mean * 800 * buffon_rng_next(&rng));
     }
-    report(&w.x, "exponential: x within 2 ulp");
-    report(&w.drawn, "exponential: g at u within 2 ulp");
-    report(&w.given, "exponential: g at x within 3 + x / mean ulp where x < 708 mean");
-    report(&w.log_given, "exponential: log g at x within 3 ulp of its larger term");
-    report(&w.u, "exponential: u of x within 3 ulp");
+    ulps_report(&w.x, "exponential: x within 2 ulp");
+    ulps_report(&w.drawn, "exponential: g at u within 2 ulp");
+    ulps_report(&w.given, "exponential: g at x within 3 + x / mean ulp where x < 708 mean");
+    ulps_report(&w.log_given, "exponential: log g at x within 3 ulp of its larger term");
+    ulps_report(&w.u, "exponential: u of x within 3 ulp");
 }
 
 /* ---- the normal against its formulas ------------------------------------------------------ */
@@ -212,7 +162,7 @@ static wide wide_bell(wide z, double sd)
 }
 
 typedef struct normal_errors {
-    worst z, drawn, given, log_given, u;
+    ulps_worst z, drawn, given, log_given, u;
     int sums, zero;
 } normal_errors;
 
@@ -221,23 +171,25 @@ typedef struct normal_errors {
 static void see_normal(normal_errors *w, double mean, double sd, double u)
 {
     const buffon_density g = buffon_normal(mean, sd), standard = buffon_normal(0, 1);
+    const double at[] = {mean, sd, u, 0};
     double z = NAN, x, pdf, own = NAN;
     if (buffon_density_sample(&x, &pdf, &u, 1, &g) != BUFFON_OK ||
         buffon_density_sample(&z, &own, &u, 1, &standard) != BUFFON_OK)
         w->z.share = INFINITY;
-    see(&w->z, z, wide_quantile(u), 8);
+    ulps_see(&w->z, z, wide_quantile(u), 8, at);
     w->sums &= x == mean + sd * z;
     if (fabs(z) < 40)
-        see(&w->drawn, pdf, wide_bell(z, sd), 4);
+        ulps_see(&w->drawn, pdf, wide_bell(z, sd), 4, at);
     else
         w->zero &= pdf == 0;
-    see(&w->drawn, own, wide_bell(z, 1), 4);
+    ulps_see(&w->drawn, own, wide_bell(z, 1), 4, at);
 }
 
 /* At a given x, z = (x - mean) / sd has two roundings. */
 static void see_normal_at(normal_errors *w, double mean, double sd, double x)
 {
     const buffon_density g = buffon_normal(mean, sd);
+    const double at[] = {mean, sd, x, 0};
     const wide z = ((wide)x - mean) / sd, rest = logl(sd * WIDE_SQRT_2PI);
     const double size = (double)fminl(z * z, 1e5L), more = size + (mean != 0) * size;
     double pdf, got, u = NAN;
@@ -246,18 +198,13 @@ static void see_normal_at(normal_errors *w, double mean, double sd, double x)
         buffon_density_invert(&u, &x, 1, &g) != BUFFON_OK)
         w->given.share = INFINITY;
     if (fabsl(z) < 39.9L)
-        see(&w->given, pdf, wide_bell(z, sd), 4 + more);
+        ulps_see(&w->given, pdf, wide_bell(z, sd), 4 + more, at);
     else if (fabsl(z) > 40)
         w->zero &= pdf == 0;
     if (fabsl(z) < 0x1p500L)
-        see_sum(&w->log_given, got, -0.5L * z * z - rest,
-                fmaxl(fmaxl(0.5L * z * z, fabsl(logl(sd))), 0.92L), 6);
-    const wide exact = wide_cdf(z);
-    see(&w->u, u,
-        exact < 0x1p-1074L     ? 0x1p-1074L
-        : exact > MOST_UNIFORM ? MOST_UNIFORM
-                               : exact,
-        6 + more);
+        ulps_see_terms(&w->log_given, got, -0.5L * z * z - rest,
+                       fmaxl(fmaxl(0.5L * z * z, fabsl(logl(sd))), 0.92L), 6, at);
+    ulps_see(&w->u, u, line_inside(wide_cdf(z)), 6 + more, at);
 }
 
 static void test_normal_formulas(void)
@@ -273,18 +220,18 @@ static void test_normal_formulas(void)
         see_normal_at(&w, 0, sd, 5 * sd * (v - 0.5));
         see_normal_at(&w, mean, sd, any_scale(&rng, k + 1));
     }
-    report(&w.z, "normal: z within 8 ulp");
+    ulps_report(&w.z, "normal: z within 8 ulp");
     tap_ok(w.sums, "normal: x is mean + sd z to the bit");
-    report(&w.drawn, "normal: g at z within 4 ulp for |z| < 40");
-    report(&w.given, "normal: g at x within 4 + z^2 ulp of mean 0, 4 + 2 z^2 of others");
+    ulps_report(&w.drawn, "normal: g at z within 4 ulp for |z| < 40");
+    ulps_report(&w.given, "normal: g at x within 4 + z^2 ulp of mean 0, 4 + 2 z^2 of others");
     tap_ok(w.zero, "normal: g is 0 where |z| is above 40");
-    report(&w.log_given, "normal: log g at x within 6 ulp of its largest term");
-    report(&w.u, "normal: u of x as near as z is known");
+    ulps_report(&w.log_given, "normal: log g at x within 6 ulp of its largest term");
+    ulps_report(&w.u, "normal: u of x as near as z is known");
 }
 
 static void test_formulas(void)
 {
-    if (!have_wide()) {
+    if (!ulps_have_wide()) {
         tap_ok(1, "formulas # SKIP long double is no wider than double");
         return;
     }

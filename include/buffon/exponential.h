@@ -35,7 +35,7 @@ BUFFON_API buffon_density buffon_exponential(double mean);
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_DOMAIN (lo, hi) or BUFFON_E_SHAPE (rate)
  *  Exact:   the distance from the nearer end within 4 ulp, and what x rounds; g at x within
  *           5 + 2 e ulp, e = |rate| times the distance from the greater end
- *           (tests/test_line_laws.c)
+ *           (tests/test_truncated_laws.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_exponential_truncated(double rate, double lo, double hi);

@@ -45,7 +45,7 @@ BUFFON_API buffon_density buffon_normal(double mean, double sd);
  *           u from 1e-300 up, and what x and the bounds' distances from the mean round; but from a
  *           mean that is not the middle of the bounds within 2^-51 sd, if that is more. g at x
  *           within 16 + 4 e ulp, where e is the exponent of the density against its peak
- *           (tests/test_line_laws.c)
+ *           (tests/test_truncated_laws.c)
  *  Cost:    5 to 60 times that of buffon_normal
  *  Since:   0.1
  */
@@ -61,7 +61,7 @@ BUFFON_API buffon_density buffon_normal_truncated(double mean, double sd, double
  *  Returns: a density of 1 coordinate; it carries BUFFON_E_SHAPE
  *  Exact:   x within 3 ulp of exp(mu + sigma z), z as of buffon_normal; g at x within 6 + 3 z^2 ulp
  *           for sigma from 0.05 up, below that what the rounding of log x is worth
- *           (tests/test_line_laws.c)
+ *           (tests/test_truncated_laws.c)
  *  Since:   0.1
  */
 BUFFON_API buffon_density buffon_lognormal(double mu, double sigma);

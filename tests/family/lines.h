@@ -4,7 +4,7 @@
 
 #include "../family.h"
 
-static void family_lines(void)
+static void family_of_lines(void)
 {
     static const double zero = 0, two = 2, minus = -5, far = 1e10, less = -1;
     static buffon_density to_two, to_zero, to_far, to_one;
@@ -50,11 +50,6 @@ static void family_lines(void)
     family_plain("Weibull", buffon_weibull(1.5, 2));
     family_add("Weibull, heavy", buffon_weibull(0.0625, 1))->unseen = 1;
     family_add("Weibull, narrow", buffon_weibull(0x1p20, 1e5));
-}
-
-static void family_of_lines(void)
-{
-    family_lines();
 }
 
 #endif
